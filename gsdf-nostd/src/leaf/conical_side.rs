@@ -1,0 +1,144 @@
+//! The side of a cone, shared by the infinite, the finite and the capped one: a cylinder whose radius grows along its axis.
+
+use super::solid::{Ground, nowhere};
+use crate::quadratic::roots;
+use crate::real::Real;
+use crate::span::Span;
+use crate::toward::Toward;
+use crate::vec3::V3;
+
+/// The solid of the points `x` with `k |y| < r + s z`, where `z = (x - b) . a` is the height over a reference point `b` along the axis and `y` the part
+/// across it: one nappe of a cone, opening towards `a` where `s > 0`.
+///
+/// `s : k` is the tangent of the half-angle; the two may have any common factor. `r / k` is the radius at the reference point, 0 where that is the apex.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Profile<T> {
+    pub(super) axis: V3<T>,
+    pub(super) r: T,
+    pub(super) s: T,
+    pub(super) k: T,
+}
+
+/// The side of a cone seen from a point.
+#[derive(Clone, Copy, Debug)]
+pub struct SeenCone<T> {
+    /// From the reference point to the origin.
+    w: V3<T>,
+    /// `k² |w x a|² - (r + s w.a)²`: zero where the origin lies on the side.
+    c: T,
+}
+
+impl<T: Real> SeenCone<T> {
+    /// The side seen from the point at `w` from the reference point.
+    #[inline(always)]
+    pub(super) fn new(w: V3<T>, profile: &Profile<T>) -> Self {
+        let across = w.cross(profile.axis).scaled(profile.k);
+        let radius = profile.r + profile.s * w.dot(profile.axis);
+        Self {
+            w,
+            c: across.norm_squared() - radius.squared(),
+        }
+    }
+
+    #[inline(always)]
+    pub(super) fn lift(seen: &SeenCone<T::Scalar>, like: T) -> Self {
+        Self {
+            w: V3::lift(like, seen.w),
+            c: like.lift_like(seen.c),
+        }
+    }
+
+    /// The side seen from a point that may lie on it.
+    #[inline(always)]
+    pub(super) fn grounded(self, profile: &Profile<T>, ground: &Ground<T>, face: f32, extent: T) -> Self {
+        // The gradient of `c` on the surface: 2 k |y| sqrt(k² + s²).
+        let slant = (profile.k.squared() + profile.s.squared()).sqrt();
+        let across = self.w.cross(profile.axis).scaled(profile.k).norm();
+        let gradient = (across + across) * slant;
+        Self {
+            c: ground.settle(face, self.c, gradient, extent),
+            ..self
+        }
+    }
+
+    /// The span of one nappe.
+    ///
+    /// The ray is first re-centred at its point nearest the reference point, where nothing far away is left to cancel. With `W`, `V` the cross products
+    /// of `w`, `v` with the axis and `R = r + s w.a`, `G = s v.a` the radius there and its growth along the ray:
+    /// `A = k² V.V - G²`, `B = k² W.V - G R`, `C = k² W.W - R²` and `D = B² - A C = k² (|R V - G W|² - k² |W x V|²)`, in which no large terms cancel either.
+    ///
+    /// A ray steeper than the side (`A < 0`) meets both nappes once; a shallower one meets one of them twice, ours where `R` is positive between its roots. One parallel to
+    /// a generatrix has `A = 0`, which sends one root to infinity by itself.
+    #[inline(always)]
+    pub(super) fn span(&self, profile: &Profile<T>, toward: &Toward<T>) -> Span<T> {
+        let zero = self.c.splat_like(0.0);
+        let infinity = zero.splat_like(f32::INFINITY);
+        let on = self.c.eq(zero);
+        let shift = T::select(on, zero, -(self.w.dot(toward.v) * toward.per_vv));
+        let near = self.w + toward.v.scaled(shift);
+
+        let w = near.cross(profile.axis);
+        let v = toward.v.cross(profile.axis);
+        let radius = profile.r + profile.s * near.dot(profile.axis);
+        let growth = profile.s * toward.v.dot(profile.axis);
+        let k2 = profile.k.squared();
+        let a = k2 * v.norm_squared() - growth.squared();
+        let b = k2 * w.dot(v) - growth * radius;
+        let c = T::select(on, zero, k2 * w.norm_squared() - radius.squared());
+        let skew = v.scaled(radius) - w.scaled(growth);
+        let cancelled = k2 * (skew.norm_squared() - k2 * w.cross(v).norm_squared());
+        let d = T::select(on, b.squared(), cancelled);
+
+        let steep = a.lt(zero);
+        let ours = on | zero.le(radius * a - growth * b);
+        let shallow = !steep & ours & zero.lt(d);
+        if nowhere(steep | shallow) {
+            return Span::empty_like(zero);
+        }
+        // A steep ray always meets the cone; through the apex both roots coincide, and a least positive number keeps them numbers.
+        let d = T::select(steep, d.max(zero.splat_like(f32::MIN_POSITIVE)), d);
+        let (first, last) = roots(zero.splat_like(1.0) / a, b, c, d);
+        // On the side a steep ray stands at its one crossing of this nappe.
+        let first = T::select(steep & on, zero, first);
+        let last = T::select(steep & on, zero, last);
+        let widening = zero.lt(growth);
+        let enter = T::select(steep, T::select(widening, last, -infinity), first);
+        let exit = T::select(steep, T::select(widening, infinity, first), last);
+        Span::between_where(steep | shallow, enter + shift, exit + shift)
+    }
+
+    /// The outward unit normal at `t`; at the apex, straight away from the cone.
+    #[inline(always)]
+    pub(super) fn normal(&self, profile: &Profile<T>, toward: &Toward<T>, t: T) -> V3<T> {
+        let zero = t.splat_like(0.0);
+        let x = self.w + toward.v.scaled(t);
+        let across = profile.axis.cross(x.cross(profile.axis));
+        let around = across.normalized_or(V3::new(zero, zero, zero));
+        let away = -profile.axis.scaled(profile.s);
+        (around.scaled(profile.k) + away).normalized_or(-toward.v)
+    }
+}
+
+/// The standard signed distance to a capped cone, in the half-plane through its axis.
+///
+/// `across` is the distance from the axis, `up` the height over the first cap and `height` that of the second; the caps have radii `first` and `second`.
+/// The nearer of two segments, the cap's and the side's. Source: I. Quilez, Distance functions (capped cone).
+#[inline(always)]
+pub(super) fn frustum_distance<T: Real>(across: T, up: T, height: T, first: T, second: T) -> T {
+    let (zero, one) = (across.splat_like(0.0), across.splat_like(1.0));
+    let beyond = up - height;
+    let low = up.lt(-beyond);
+    let over_cap = T::select(low, -up, beyond);
+    let past_rim = (across - T::select(low, first, second)).max(zero);
+    // From the rim of the second cap to the point, and to the rim of the first.
+    let (x, y) = (across - second, beyond);
+    let (side_x, side_y) = (second - first, height);
+    let along = -((x * side_x + y * side_y) / (side_x.squared() + side_y.squared()));
+    let along = along.max(zero).min(one);
+    let (off_x, off_y) = (x + side_x * along, y + side_y * along);
+    let to_cap = past_rim.squared() + over_cap.squared();
+    let to_side = off_x.squared() + off_y.squared();
+    let distance = to_cap.min(to_side).sqrt();
+    let inside = off_x.lt(zero) & over_cap.lt(zero);
+    T::select(inside, -distance, distance)
+}

@@ -1,0 +1,162 @@
+//! What it takes to be a leaf of a program.
+
+use crate::ray::{Line, Ray, is_in_range};
+use crate::real::{Mask, Real};
+use crate::span::Span;
+use crate::toward::Toward;
+use crate::vec3::V3;
+use glam::Vec3;
+
+/// A convex solid: what a program's leaves are.
+///
+/// A ray meets a convex solid in one span, so each solid has one closed form, in three stages: what depends on the ray's origin alone
+/// ([`seen_from`](Solid::seen_from)), what depends on its direction alone ([`Toward`]), and the rest ([`span`](Solid::span)). Rays of a pinhole camera share their origin, so
+/// the first stage runs once per image.
+///
+/// Each formula is generic over the arithmetic and written once: scalar, double and packet queries run the same text.
+///
+/// # Writing your own
+/// Implement the required methods for a `Copy` type and put it in a [`leaf_set!`](crate::leaf_set!). The contract, on which theorems and packets rely:
+/// spans are half-open and come from [`Span::between`] or its kin (no NaN; empty where a ray only touches); every arithmetic operation is one of
+/// [`Real`]'s; `span` depends on nothing but its arguments.
+pub trait Solid: Copy {
+    /// What of the solid depends on the ray's origin alone.
+    type Seen<T: Real>: Copy;
+
+    /// The standard signed distance from `p` to the surface, negative inside: exact up to rounding, and never too large in magnitude.
+    fn distance<T: Real>(&self, p: V3<T>) -> T;
+
+    /// The solid as seen from `origin`.
+    fn seen_from<T: Real>(&self, origin: V3<T>) -> Self::Seen<T>;
+
+    /// What was computed once, in one lane's arithmetic, for all lanes of the arithmetic of `like`.
+    fn lift<T: Real>(seen: &Self::Seen<T::Scalar>, like: T) -> Self::Seen<T>;
+
+    /// The solid as seen from an origin that lies *on* those of its faces which `ground` names.
+    ///
+    /// There the ray starts at the root 0 exactly, and its direction alone decides whether it starts inside.
+    fn grounded<T: Real>(&self, seen: Self::Seen<T>, ground: &Ground<T>) -> Self::Seen<T>;
+
+    /// The parameters at which the ray is inside: enters at `enter`, leaves at `exit`, is in on the half-open span between.
+    fn span<T: Real>(&self, seen: &Self::Seen<T>, toward: &Toward<T>) -> Span<T>;
+
+    /// The surface at `t`, which is an end of [`span`](Solid::span), bit for bit.
+    fn surface<T: Real>(&self, seen: &Self::Seen<T>, toward: &Toward<T>, t: T) -> Surface<T>;
+
+    /// A box around the solid, or `None` where it is unbounded.
+    fn bounds(&self) -> Option<Bounds>;
+
+    /// [`seen_from`](Solid::seen_from) and [`span`](Solid::span) in one.
+    #[inline]
+    fn span_along<T: Real>(&self, line: &Line<T>) -> Span<T> {
+        self.span(&self.seen_from(line.origin), &line.toward)
+    }
+
+    /// The standard signed distance function φ(p): how far from `p` to the nearest point of the surface, negative inside; NaN unless `p` is finite and within ±2^30.
+    #[must_use]
+    fn sdf(&self, p: Vec3) -> f32 {
+        if is_in_range(p) { self.distance(V3::from(p)) } else { f32::NAN }
+    }
+
+    /// The generalized signed distance function φ_G(v, p): how far from `p` along `v` to the next crossing of the surface, positive outside, negative inside,
+    /// infinite where there is none; NaN unless the two make a [`Ray`].
+    ///
+    /// In units of the length of `v`: a distance where `v` is of unit length.
+    #[must_use]
+    fn gsdf(&self, p: Vec3, v: Vec3) -> f32 {
+        match Ray::new(p, v) {
+            Ok(ray) => ray.from_line(self.span_along(&ray.line(0.0_f32)).signed_crossing(0.0)),
+            Err(_) => f32::NAN,
+        }
+    }
+}
+
+/// A point of a surface, as a ray that crosses it there sees it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Surface<T> {
+    /// The unit normal, outward from the solid.
+    pub normal: V3<T>,
+    /// The number of the face, from 0, as a number of the arithmetic.
+    pub face: T,
+}
+
+impl<T: Real> Surface<T> {
+    /// `self` where the mask is true, `other` elsewhere.
+    #[inline(always)]
+    #[must_use]
+    pub fn or_else(self, mask: T::Mask, other: Self) -> Self {
+        Self {
+            normal: V3::select(mask, self.normal, other.normal),
+            face: T::select(mask, self.face, other.face),
+        }
+    }
+}
+
+/// What an origin is known to lie on: the face a ray leaves, and every face as near as rounding can tell.
+#[derive(Clone, Copy, Debug)]
+pub struct Ground<T> {
+    /// How far from a surface the origin may seem to be, by rounding alone, when it is on it; a length in the solid's frame.
+    pub tolerance: T,
+    /// The number of the face the origin is known to lie on, or -1.
+    pub face: T,
+}
+
+impl<T: Real> Ground<T> {
+    /// `offset`, a measure of how far the origin is from face number `face`, or zero where the origin lies on that face. `scale` is by what `offset` exceeds
+    /// a distance near the surface, `size` the extent of the solid, which adds to the rounding error.
+    #[inline(always)]
+    pub fn settle(&self, face: f32, offset: T, scale: T, size: T) -> T {
+        let zero = offset.splat_like(0.0);
+        let within = self.tolerance + size * offset.splat_like(Self::ROUNDING);
+        let on = offset.abs().le(scale * within) | self.face.eq(self.face.splat_like(face));
+        T::select(on, zero, offset)
+    }
+
+    /// How many times the extent a computed offset can be off by rounding: 32 units roundoff of `f32`.
+    pub(crate) const ROUNDING: f32 = 32.0 / 16_777_216.0;
+}
+
+/// A box whose faces are parallel to the coordinate planes, and which holds a solid.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Bounds {
+    /// The corner with the least coordinates.
+    pub min: Vec3,
+    /// The corner with the greatest coordinates.
+    pub max: Vec3,
+}
+
+impl Bounds {
+    /// The bounds of the points within `reach` of a centre, coordinate by coordinate, rounded outward.
+    #[must_use]
+    pub fn around(center: Vec3, reach: Vec3) -> Self {
+        let outward = |v: f32, towards: f32| if towards < 0.0 { v.next_down() } else { v.next_up() };
+        let (low, high) = (center - reach, center + reach);
+        Self {
+            min: Vec3::new(outward(low.x, -1.0), outward(low.y, -1.0), outward(low.z, -1.0)),
+            max: Vec3::new(outward(high.x, 1.0), outward(high.y, 1.0), outward(high.z, 1.0)),
+        }
+    }
+
+    /// The least box around both.
+    #[must_use]
+    pub fn joined(self, other: Self) -> Self {
+        Self {
+            min: self.min.min(other.min),
+            max: self.max.max(other.max),
+        }
+    }
+
+    /// The bounds of a disc with a unit normal.
+    #[must_use]
+    pub(crate) fn of_disc(center: Vec3, normal: Vec3, radius: f32) -> Self {
+        // A disc reaches r sqrt(1 - n_i²) along axis i; n is of unit length to 2^-21, so a millionth more is enough.
+        let reach = |n: f32| radius * 1.000_001 * libm::sqrtf(Real::max(1.000_001 - n * n, 0.0));
+        Self::around(center, Vec3::new(reach(normal.x), reach(normal.y), reach(normal.z)))
+    }
+}
+
+/// Whether a mask holds in no lane.
+#[inline(always)]
+pub(crate) fn nowhere<M: Mask>(mask: M) -> bool {
+    !mask.any()
+}

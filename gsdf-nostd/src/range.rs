@@ -1,0 +1,60 @@
+//! The range of numbers in which every formula of this crate is free of overflow and of harmful underflow.
+//!
+//! With coordinates up to 2^30, transforms that stretch by at most 2^10 either way and ray directions scaled exactly to a largest component in
+//! [1, 2), no product of a formula exceeds 2^114, and the discriminant of a solid of the least size keeps its leading bits above the
+//! smallest normal number. What lies outside is refused where it is made ([`Invalid`](crate::Invalid), [`RayError`](crate::RayError)), so that no query
+//! has to look, and none returns a silent wrong answer.
+
+use glam::Vec3;
+
+/// The largest magnitude of a coordinate and of a size: 2^30.
+pub const MAX_LENGTH: f32 = 1_073_741_824.0;
+
+/// The least size of a solid: 2^-20.
+pub const MIN_LENGTH: f32 = 1.0 / 1_048_576.0;
+
+/// By how much the squared length of a unit vector may differ from one: 2^-21, about two units in the last place of its length.
+pub const UNIT_TOLERANCE: f64 = 1.0 / 2_097_152.0;
+
+/// The factor by which a transform may stretch a length, and its inverse: 2^10.
+pub const MAX_STRETCH: f32 = 1024.0;
+
+/// A ray whose speed towards a plane is below this, in units of a direction with components up to 2, is taken as parallel to it: 2^-100.
+pub(crate) const PARALLEL_SPEED: f32 = 1.0 / (1_u128 << 100) as f32;
+
+/// A ray is taken as parallel to an axis when the square of its tilt (the sine of the angle between them) is below this: 2^-64.
+pub(crate) const PARALLEL_TILT_SQUARED: f32 = 1.0 / (1_u128 << 64) as f32;
+
+/// The power of two that brings a normal number's magnitude into [1, 2); multiplying by it is exact.
+pub(crate) const fn unit_scale(value: f32) -> f32 {
+    let exponent = (value.to_bits() >> 23) & 0xff;
+    match exponent {
+        // The inverse of 2^127 is below the normal numbers.
+        254 => f32::from_bits(1 << 22),
+        _ => f32::from_bits((254 - exponent) << 23),
+    }
+}
+
+/// The largest magnitude of a component.
+pub(crate) const fn max_norm(v: Vec3) -> f32 {
+    larger(v.x.abs(), larger(v.y.abs(), v.z.abs()))
+}
+
+/// The larger of two numbers, in `const`.
+pub(crate) const fn larger(a: f32, b: f32) -> f32 {
+    if a < b { b } else { a }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::unit_scale;
+
+    #[test]
+    fn scaled_numbers_lie_from_one_to_two() {
+        for value in [f32::MIN_POSITIVE, 1.0e-20, 0.75, 1.0, 1.999_999_9, 2.0, 3.0e38, f32::MAX, -5.0] {
+            let scale = unit_scale(value);
+            assert!((1.0..2.0).contains(&(value * scale).abs()), "{value}");
+            assert_eq!(value * scale / scale, value);
+        }
+    }
+}

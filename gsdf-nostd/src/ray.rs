@@ -1,0 +1,191 @@
+//! Rays, refused when they are not rays.
+
+use crate::range::{MAX_LENGTH, max_norm, unit_scale};
+use crate::real::Real;
+use crate::toward::Toward;
+use crate::vec3::V3;
+use core::fmt;
+use core::ops::Range;
+use glam::Vec3;
+
+/// The half-line `origin + t direction` for `t` in a range, checked once so that no query has to.
+///
+/// The parameter `t` is in units of the direction's length: a distance where the direction is of unit length, which it need not be.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ray {
+    origin: Vec3,
+    direction: Vec3,
+    /// The power of two that brings the direction's largest component into [1, 2).
+    scale: f32,
+    range: (f32, f32),
+}
+
+/// Why something is not a ray.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum RayError {
+    /// The origin has a component that is NaN or infinite.
+    OriginNotFinite(Vec3),
+    /// The origin has a component beyond ±[`MAX_LENGTH`].
+    OriginTooFar(Vec3),
+    /// The direction has a component that is NaN or infinite.
+    DirectionNotFinite(Vec3),
+    /// The direction is zero, or so short (every component below 2^-126) that its components have lost digits.
+    DirectionZero(Vec3),
+    /// The range does not satisfy `0 <= start < end`, or holds NaN.
+    Range(f32, f32),
+}
+
+impl fmt::Display for RayError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::OriginNotFinite(found) => write!(f, "ray origin {found}: every coordinate must be finite"),
+            Self::OriginTooFar(found) => {
+                write!(f, "ray origin {found}: every coordinate must be within -2^30..2^30")
+            }
+            Self::DirectionNotFinite(found) => write!(f, "ray direction {found}: every component must be finite"),
+            Self::DirectionZero(found) => {
+                write!(f, "ray direction {found}: some component must be at least 2^-126 in magnitude")
+            }
+            Self::Range(start, end) => write!(f, "ray range {start}..{end}: must satisfy 0 <= start < end"),
+        }
+    }
+}
+
+impl core::error::Error for RayError {}
+
+impl Ray {
+    /// The ray from `origin` along `direction`, over the range from 0 to infinity.
+    ///
+    /// # Errors
+    /// Where a component is not finite, the origin is beyond ±2^30, or the direction is zero or denormal.
+    pub const fn new(origin: Vec3, direction: Vec3) -> Result<Self, RayError> {
+        if !is_finite(origin) {
+            return Err(RayError::OriginNotFinite(origin));
+        }
+        if !is_in_range(origin) {
+            return Err(RayError::OriginTooFar(origin));
+        }
+        if !is_finite(direction) {
+            return Err(RayError::DirectionNotFinite(direction));
+        }
+        let largest = max_norm(direction);
+        if largest < f32::MIN_POSITIVE {
+            return Err(RayError::DirectionZero(direction));
+        }
+        Ok(Self {
+            origin,
+            direction,
+            scale: unit_scale(largest),
+            range: (0.0, f32::INFINITY),
+        })
+    }
+
+    /// The same ray over another range of its parameter. What happens at `range.start` itself counts as past, what happens at `range.end` as
+    /// not reached.
+    ///
+    /// # Errors
+    /// Unless `0 <= range.start < range.end`.
+    pub const fn within(self, range: Range<f32>) -> Result<Self, RayError> {
+        if range.start >= 0.0 && range.start < range.end {
+            Ok(Self {
+                range: (range.start, range.end),
+                ..self
+            })
+        } else {
+            Err(RayError::Range(range.start, range.end))
+        }
+    }
+
+    /// Where the ray starts.
+    #[must_use]
+    pub const fn origin(&self) -> Vec3 {
+        self.origin
+    }
+
+    /// Its direction, as it was given.
+    #[must_use]
+    pub const fn direction(&self) -> Vec3 {
+        self.direction
+    }
+
+    /// The range of its parameter.
+    #[must_use]
+    pub const fn range(&self) -> Range<f32> {
+        self.range.0..self.range.1
+    }
+
+    /// The point at parameter `t`, each coordinate with two roundings.
+    #[must_use]
+    pub fn at(&self, t: f32) -> Vec3 {
+        self.origin + self.direction * t
+    }
+
+    /// The line the formulas see: the ray with its direction scaled, exactly, to a largest component in [1, 2).
+    pub(crate) fn line<T: Real<Scalar = T>>(&self, like: T) -> Line<T> {
+        let scale = like.splat_like(self.scale);
+        Line {
+            origin: V3::splat(like, self.origin),
+            toward: Toward::new(V3::splat(like, self.direction).scaled(scale)),
+        }
+    }
+
+    /// The parameter on [`line`](Self::line) that belongs to a parameter of this ray; exact unless it overflows.
+    pub(crate) fn to_line<T: Real>(&self, t: T) -> T {
+        t / t.splat_like(self.scale)
+    }
+
+    /// The parameter of this ray that belongs to a parameter on [`line`](Self::line); exact unless it overflows to infinity.
+    pub(crate) fn from_line<T: Real>(&self, t: T) -> T {
+        t * t.splat_like(self.scale)
+    }
+}
+
+/// A line in some frame and arithmetic: where it starts and all that follows from where it points.
+#[derive(Clone, Copy, Debug)]
+pub struct Line<T> {
+    /// The point at parameter 0.
+    pub origin: V3<T>,
+    /// The direction.
+    pub toward: Toward<T>,
+}
+
+const fn is_finite(v: Vec3) -> bool {
+    v.x.is_finite() && v.y.is_finite() && v.z.is_finite()
+}
+
+/// Whether a point has finite coordinates of at most [`MAX_LENGTH`] in magnitude.
+pub(crate) const fn is_in_range(v: Vec3) -> bool {
+    is_finite(v) && max_norm(v) <= MAX_LENGTH
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Ray, RayError};
+    use glam::{Vec3, vec3};
+
+    #[test]
+    fn what_is_not_a_ray_is_refused() {
+        let nan = vec3(0.0, f32::NAN, 0.0);
+        assert!(matches!(Ray::new(nan, Vec3::X), Err(RayError::OriginNotFinite(_))));
+        assert!(matches!(Ray::new(Vec3::ZERO, nan), Err(RayError::DirectionNotFinite(_))));
+        assert!(matches!(Ray::new(Vec3::ZERO, Vec3::ZERO), Err(RayError::DirectionZero(_))));
+        assert!(matches!(
+            Ray::new(Vec3::ZERO, vec3(1e-40, 0.0, 0.0)),
+            Err(RayError::DirectionZero(_))
+        ));
+        assert!(matches!(Ray::new(vec3(1e10, 0.0, 0.0), Vec3::X), Err(RayError::OriginTooFar(_))));
+        let ray = Ray::new(Vec3::ZERO, Vec3::X).unwrap();
+        for range in [-1.0..1.0, 1.0..1.0, f32::NAN..1.0, 0.0..f32::NAN] {
+            assert!(ray.within(range).is_err());
+        }
+    }
+
+    #[test]
+    fn parameters_are_in_units_of_the_direction() {
+        for length in [1e-37_f32, 0.3, 1.0, 7.0, 1e38] {
+            let ray = Ray::new(Vec3::ZERO, vec3(0.0, length, 0.0)).unwrap();
+            assert_eq!(ray.from_line(ray.to_line(0.75_f32)), 0.75);
+        }
+    }
+}

@@ -1,0 +1,194 @@
+//! The arithmetic every formula of this crate is written in.
+//!
+//! A formula is written once, over [`Real`], and compiled for `f32`, for `f64` and for whatever lane type a packet crate brings.
+//! To give the same bits everywhere the trait holds only operations that IEEE 754 rounds correctly, or that only pick or flip bits:
+//! no fused multiply-add, no estimates of reciprocals, no sums across lanes.
+
+use core::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
+
+/// The outcome of a comparison: `bool` for a scalar, one truth value per lane for a packet.
+pub trait Mask: Copy + BitAnd<Output = Self> + BitOr<Output = Self> + Not<Output = Self> {
+    /// Whether any lane is true.
+    fn any(self) -> bool;
+    /// Whether every lane is true.
+    fn all(self) -> bool;
+    /// The same truth value in every lane, in the shape of `self`.
+    #[must_use]
+    fn splat_like(self, value: bool) -> Self;
+    /// Whether the truth values differ, lane by lane.
+    #[inline(always)]
+    #[must_use]
+    fn differs_from(self, other: Self) -> Self {
+        (self & !other) | (!self & other)
+    }
+}
+
+impl Mask for bool {
+    #[inline(always)]
+    fn any(self) -> bool {
+        self
+    }
+    #[inline(always)]
+    fn all(self) -> bool {
+        self
+    }
+    #[inline(always)]
+    fn splat_like(self, value: bool) -> Self {
+        value
+    }
+}
+
+/// A real number, or a packet of them.
+///
+/// Every operation is correctly rounded (`+ - * /`, [`sqrt`](Real::sqrt)) or exact (the rest), so that all implementations give the
+/// same bits for the same inputs, NaN payloads aside. Comparisons with NaN are false.
+///
+/// Constants are made *like* an existing value ([`splat_like`](Real::splat_like)), because some lane types carry a proof of the
+/// processor's abilities that cannot be conjured from nothing.
+pub trait Real: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self> + Neg<Output = Self> {
+    /// The result of comparing two values.
+    type Mask: Mask;
+    /// The arithmetic of one lane: `f32` for `f32` and its packets, `f64` for `f64`.
+    type Scalar: Lane;
+
+    /// `value` in every lane; exact, since every arithmetic here contains the `f32` numbers.
+    #[must_use]
+    fn splat_like(self, value: f32) -> Self;
+    /// A value of one lane's arithmetic in every lane.
+    #[must_use]
+    fn lift_like(self, value: Self::Scalar) -> Self;
+    /// The square root, correctly rounded; NaN below zero.
+    #[must_use]
+    fn sqrt(self) -> Self;
+    /// The value with its sign bit cleared.
+    #[must_use]
+    fn abs(self) -> Self;
+    /// The magnitude of `self` with the sign bit of `sign`.
+    #[must_use]
+    fn copysign(self, sign: Self) -> Self;
+    /// `self < other`, false where either is NaN.
+    fn lt(self, other: Self) -> Self::Mask;
+    /// `self <= other`, false where either is NaN.
+    fn le(self, other: Self) -> Self::Mask;
+    /// `self == other`, false where either is NaN; both zeros are equal.
+    fn eq(self, other: Self) -> Self::Mask;
+    /// `yes` where the mask is true, `no` elsewhere.
+    #[must_use]
+    fn select(mask: Self::Mask, yes: Self, no: Self) -> Self;
+
+    /// `self > other`, false where either is NaN.
+    #[inline(always)]
+    fn gt(self, other: Self) -> Self::Mask {
+        other.lt(self)
+    }
+    /// `self < other ? self : other`: the second operand where they are equal or either is NaN, as x86's `minps` has it.
+    #[inline(always)]
+    #[must_use]
+    fn min(self, other: Self) -> Self {
+        Self::select(self.lt(other), self, other)
+    }
+    /// `other < self ? self : other`: the second operand where they are equal or either is NaN, as x86's `maxps` has it.
+    #[inline(always)]
+    #[must_use]
+    fn max(self, other: Self) -> Self {
+        Self::select(other.lt(self), self, other)
+    }
+    /// The product with itself.
+    #[inline(always)]
+    #[must_use]
+    fn squared(self) -> Self {
+        self * self
+    }
+}
+
+/// The arithmetic of a single lane: `f32`, `f64`, or a newtype over one of them.
+pub trait Lane: Real<Scalar = Self, Mask = bool> + PartialOrd + From<f32> {
+    /// The nearest `f32`.
+    fn to_f32(self) -> f32;
+    /// The integer part of a number from 0 to 2^24; saturates beyond `u32`, and 0 for NaN.
+    fn to_index(self) -> u32;
+}
+
+macro_rules! real_scalar {
+    ($float:ty, $sqrt:path) => {
+        impl Real for $float {
+            type Mask = bool;
+            type Scalar = $float;
+
+            #[inline(always)]
+            fn splat_like(self, value: f32) -> Self {
+                Self::from(value)
+            }
+            #[inline(always)]
+            fn lift_like(self, value: Self) -> Self {
+                value
+            }
+            #[inline(always)]
+            fn sqrt(self) -> Self {
+                $sqrt(self)
+            }
+            #[inline(always)]
+            fn abs(self) -> Self {
+                <$float>::abs(self)
+            }
+            #[inline(always)]
+            fn copysign(self, sign: Self) -> Self {
+                <$float>::copysign(self, sign)
+            }
+            #[inline(always)]
+            fn lt(self, other: Self) -> bool {
+                self < other
+            }
+            #[inline(always)]
+            fn le(self, other: Self) -> bool {
+                self <= other
+            }
+            #[inline(always)]
+            fn eq(self, other: Self) -> bool {
+                self == other
+            }
+            #[inline(always)]
+            fn select(mask: bool, yes: Self, no: Self) -> Self {
+                if mask { yes } else { no }
+            }
+        }
+
+        impl Lane for $float {
+            #[inline(always)]
+            #[allow(clippy::cast_possible_truncation, reason = "rounding to f32 is what is asked for")]
+            fn to_f32(self) -> f32 {
+                self as f32
+            }
+            #[inline(always)]
+            #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "`as` saturates")]
+            fn to_index(self) -> u32 {
+                self as u32
+            }
+        }
+    };
+}
+
+real_scalar!(f32, libm::sqrtf);
+real_scalar!(f64, libm::sqrt);
+
+#[cfg(test)]
+mod tests {
+    use super::{Mask, Real};
+
+    #[test]
+    fn min_and_max_return_the_second_operand_on_ties_and_nan() {
+        assert!(Real::min(0.0_f32, -0.0).is_sign_negative());
+        assert!(Real::max(-0.0_f32, 0.0).is_sign_positive());
+        assert_eq!(Real::min(f32::NAN, 1.0), 1.0);
+        assert_eq!(Real::max(f64::NAN, 1.0), 1.0);
+        assert!(Real::min(1.0_f32, f32::NAN).is_nan());
+        assert!(Real::max(1.0_f64, f64::NAN).is_nan());
+    }
+
+    #[test]
+    fn masks_differ_where_exactly_one_is_true() {
+        for (a, b) in [(false, false), (false, true), (true, false), (true, true)] {
+            assert_eq!(a.differs_from(b), a != b);
+        }
+    }
+}

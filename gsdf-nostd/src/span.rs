@@ -1,0 +1,129 @@
+//! What one ray sees of one solid: a half-open span of its parameter.
+
+use crate::real::{Mask, Real};
+
+/// The part of a ray inside a convex solid: the parameters `enter <= t < exit`.
+///
+/// Half-open spans form a Boolean algebra without isolated points: spans that touch merge, a tangent ray and a ray in a face miss, and
+/// coincident faces need no epsilon. An empty span always reads `enter = +inf, exit = -inf`, and no bound is ever NaN.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Span<T> {
+    /// Where the ray enters, possibly -inf.
+    pub enter: T,
+    /// Where the ray leaves, possibly +inf.
+    pub exit: T,
+}
+
+impl Span<f32> {
+    /// The span without points; what scratch memory is filled with.
+    pub const EMPTY: Self = Self {
+        enter: f32::INFINITY,
+        exit: f32::NEG_INFINITY,
+    };
+}
+
+impl<T: Real> Span<T> {
+    /// The span from `enter` to `exit`, empty unless `enter < exit` (so also where either is NaN).
+    #[inline(always)]
+    pub fn between(enter: T, exit: T) -> Self {
+        Self::between_where(enter.lt(exit), enter, exit)
+    }
+
+    /// The span from `enter` to `exit` in the lanes where `condition` holds and `enter < exit`, empty elsewhere.
+    #[inline(always)]
+    pub fn between_where(condition: T::Mask, enter: T, exit: T) -> Self {
+        let inhabited = condition & enter.lt(exit);
+        Self {
+            enter: T::select(inhabited, enter, enter.splat_like(f32::INFINITY)),
+            exit: T::select(inhabited, exit, enter.splat_like(f32::NEG_INFINITY)),
+        }
+    }
+
+    /// The span without points.
+    #[inline(always)]
+    pub fn empty_like(like: T) -> Self {
+        Self {
+            enter: like.splat_like(f32::INFINITY),
+            exit: like.splat_like(f32::NEG_INFINITY),
+        }
+    }
+
+    /// The points in both spans.
+    #[inline(always)]
+    #[must_use]
+    pub fn intersection(self, other: Self) -> Self {
+        Self::between(self.enter.max(other.enter), self.exit.min(other.exit))
+    }
+
+    /// The least span around both; their union where that is known to be convex.
+    #[inline(always)]
+    #[must_use]
+    pub fn hull(self, other: Self) -> Self {
+        Self {
+            enter: self.enter.min(other.enter),
+            exit: self.exit.max(other.exit),
+        }
+    }
+
+    /// The next boundary after `t >= 0`, with the sign of the side on which `t` lies: `+enter` ahead of the span, `-exit` in it, +inf
+    /// behind it.
+    ///
+    /// Positive outside, negative inside, like every signed distance; but absolute along the ray, so that taking minima and maxima of
+    /// several solids only ever selects one of the numbers computed once per leaf.
+    #[inline(always)]
+    pub fn signed_crossing(self, t: T) -> T {
+        let ahead = T::select(t.lt(self.exit), -self.exit, t.splat_like(f32::INFINITY));
+        T::select(t.lt(self.enter), self.enter, ahead)
+    }
+
+    /// Whether the ray is inside just before `t`.
+    #[inline(always)]
+    pub fn contains_before(self, t: T) -> T::Mask {
+        self.enter.lt(t) & t.le(self.exit)
+    }
+
+    /// Whether the ray is inside at `t` and just after it.
+    #[inline(always)]
+    pub fn contains_after(self, t: T) -> T::Mask {
+        self.enter.le(t) & t.lt(self.exit)
+    }
+
+    /// Whether the span has any point in any lane.
+    #[inline(always)]
+    pub fn is_inhabited(self) -> bool {
+        self.enter.lt(self.exit).any()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Span;
+
+    #[test]
+    fn touching_ends_make_an_empty_span() {
+        assert_eq!(Span::between(1.0_f32, 1.0), Span::EMPTY);
+        assert_eq!(Span::between(f32::NAN, 1.0), Span::EMPTY);
+        assert_eq!(Span::between(0.0, f32::NAN), Span::EMPTY);
+        let (left, right) = (Span::between(0.0_f32, 1.0), Span::between(1.0, 2.0));
+        assert_eq!(left.intersection(right), Span::EMPTY);
+        assert_eq!(left.hull(right), Span::between(0.0, 2.0));
+        assert_eq!(left.hull(Span::EMPTY), left);
+    }
+
+    #[test]
+    fn crossing_is_signed_by_the_side() {
+        let span = Span::between(1.0_f32, 3.0);
+        assert_eq!(span.signed_crossing(0.0), 1.0);
+        assert_eq!(span.signed_crossing(1.0), -3.0);
+        assert_eq!(span.signed_crossing(2.0), -3.0);
+        assert_eq!(span.signed_crossing(3.0), f32::INFINITY);
+        assert_eq!(Span::EMPTY.signed_crossing(0.0), f32::INFINITY);
+    }
+
+    #[test]
+    fn both_sides_of_a_boundary() {
+        let span = Span::between(1.0_f32, 3.0);
+        assert!(!span.contains_before(1.0) && span.contains_after(1.0));
+        assert!(span.contains_before(3.0) && !span.contains_after(3.0));
+    }
+}
