@@ -112,9 +112,13 @@ impl CappedCone {
         let scale = like.splat_like(self.scale);
         let bottom_radius = like.splat_like(self.bottom_radius);
         let k = self.height(like) * scale;
+        let axis = V3::splat(like, self.axis);
+        // The length of a vector that is nearly of unit length, to first order in what is missing.
+        let half = like.splat_like(0.5);
+        let axis_length = half + half * axis.norm_squared();
         Profile {
-            axis: V3::splat(like, self.axis),
-            r: bottom_radius * k,
+            axis,
+            r: bottom_radius * k * axis_length,
             s: (like.splat_like(self.top_radius) - bottom_radius) * scale,
             k,
         }

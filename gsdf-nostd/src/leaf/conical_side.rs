@@ -2,6 +2,7 @@
 
 use super::solid::{Ground, nowhere};
 use crate::quadratic::roots;
+use crate::range::PARALLEL_TILT_SQUARED;
 use crate::real::Real;
 use crate::span::Span;
 use crate::toward::Toward;
@@ -68,12 +69,13 @@ impl<T: Real> SeenCone<T> {
     /// `A = k² V.V - G²`, `B = k² W.V - G R`, `C = k² W.W - R²` and `D = B² - A C = k² (|R V - G W|² - k² |W x V|²)`, in which no large terms cancel either.
     ///
     /// A ray steeper than the side (`A < 0`) meets both nappes once; a shallower one meets one of them twice, ours where `R` is positive between its roots. One parallel to
-    /// a generatrix has `A = 0`, which sends one root to infinity by itself.
+    /// a generatrix has `A = 0`, which sends one root to infinity by itself. One along the axis of a side that hardly widens sees no change at all.
     #[inline(always)]
     pub(super) fn span(&self, profile: &Profile<T>, toward: &Toward<T>) -> Span<T> {
         let zero = self.c.splat_like(0.0);
         let infinity = zero.splat_like(f32::INFINITY);
-        let on = self.c.eq(zero);
+        // On our nappe: the other one's surface is none.
+        let on = self.c.eq(zero) & zero.lt(profile.r + profile.s * self.w.dot(profile.axis));
         let shift = T::select(on, zero, -(self.w.dot(toward.v) * toward.per_vv));
         let near = self.w + toward.v.scaled(shift);
 
@@ -82,7 +84,8 @@ impl<T: Real> SeenCone<T> {
         let radius = profile.r + profile.s * near.dot(profile.axis);
         let growth = profile.s * toward.v.dot(profile.axis);
         let k2 = profile.k.squared();
-        let a = k2 * v.norm_squared() - growth.squared();
+        let (across2, growth2) = (k2 * v.norm_squared(), growth.squared());
+        let a = across2 - growth2;
         let b = k2 * w.dot(v) - growth * radius;
         let c = T::select(on, zero, k2 * w.norm_squared() - radius.squared());
         let skew = v.scaled(radius) - w.scaled(growth);
@@ -91,8 +94,12 @@ impl<T: Real> SeenCone<T> {
 
         let steep = a.lt(zero);
         let ours = on | zero.le(radius * a - growth * b);
-        let shallow = !steep & ours & zero.lt(d);
-        if nowhere(steep | shallow) {
+        let still = k2 * profile.axis.norm_squared() * toward.vv * zero.splat_like(PARALLEL_TILT_SQUARED);
+        let constant = (across2 + growth2).lt(still);
+        let within = constant & c.lt(zero) & zero.lt(radius);
+        let steep = steep & !constant;
+        let shallow = !steep & !constant & ours & zero.lt(d);
+        if nowhere(steep | shallow | within) {
             return Span::empty_like(zero);
         }
         // A steep ray always meets the cone; through the apex both roots coincide, and a least positive number keeps them numbers.
@@ -104,7 +111,11 @@ impl<T: Real> SeenCone<T> {
         let widening = zero.lt(growth);
         let enter = T::select(steep, T::select(widening, last, -infinity), first);
         let exit = T::select(steep, T::select(widening, infinity, first), last);
-        Span::between_where(steep | shallow, enter + shift, exit + shift)
+        Span::between_where(
+            steep | shallow | within,
+            T::select(within, -infinity, enter + shift),
+            T::select(within, infinity, exit + shift),
+        )
     }
 
     /// The outward unit normal at `t`; at the apex, straight away from the cone.

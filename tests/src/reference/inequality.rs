@@ -3,7 +3,8 @@
 //! Nothing here knows of rays. Each function is a polynomial in the coordinates of the point, of degree at most two and
 //! negative inside, written down from the definition of its surface.
 
-use super::number::{Exact, ExactVec3};
+use super::number::Exact;
+use super::vector::ExactVec3;
 
 /// How many significant bits of the length of an axis are computed, where it has no end.
 ///
@@ -22,10 +23,7 @@ enum Form {
     /// `(x - point)·normal < 0`
     Plane { point: ExactVec3, normal: ExactVec3 },
     /// `|x - center|² < radius²`
-    Sphere {
-        center: ExactVec3,
-        radius_squared: Exact,
-    },
+    Sphere { center: ExactVec3, radius_squared: Exact },
     /// `|x - point|² |axis|² - ((x - point)·axis)² < radius² |axis|²`
     Cylinder {
         point: ExactVec3,
@@ -51,6 +49,8 @@ struct Cone {
     rise: Exact,
     /// `run · radius · |axis|`
     offset: Exact,
+    /// The square of the offset, which needs no root and hence is exact.
+    offset_squared: Exact,
 }
 
 impl Cone {
@@ -58,6 +58,13 @@ impl Cone {
     /// Negative beyond the apex, where the equation of the surface has a mirror image that does not belong to the cone.
     fn width(&self, from_point: &ExactVec3) -> Exact {
         &self.offset + &(&self.rise * &from_point.dot(&self.axis))
+    }
+
+    /// The square of the width, multiplied out so that a rounded offset plays no part where nothing rises: a line that
+    /// lies within such a side is outside, and not inside by a rounding error.
+    fn width_squared(&self, from_point: &ExactVec3) -> Exact {
+        let growth = &self.rise * &from_point.dot(&self.axis);
+        &(&self.offset_squared + &(&self.offset * &growth).scaled(1)) + &growth.square()
     }
 }
 
@@ -81,11 +88,7 @@ impl Inequality {
     /// The points nearer than the radius to the line through a point along an axis.
     ///
     /// An axis of no length has no line, and then no point is inside.
-    pub fn cylinder(
-        point: impl Into<ExactVec3>,
-        axis: impl Into<ExactVec3>,
-        radius: impl Into<Exact>,
-    ) -> Self {
+    pub fn cylinder(point: impl Into<ExactVec3>, axis: impl Into<ExactVec3>, radius: impl Into<Exact>) -> Self {
         let axis = axis.into();
         let axis_squared = axis.length_squared();
         let scaled_radius_squared = &radius.into().square() * &axis_squared;
@@ -104,7 +107,7 @@ impl Inequality {
     /// beyond the apex, where the right side is negative.
     ///
     /// `z` is a distance whatever the length of the axis. That length enters only if the radius is not zero, and is then
-    /// computed to 640 bits where it has no exact binary form.
+    /// computed to 640 bits where it has no exact binary form. Such a side is right but for 2⁻⁶⁴⁰ of its size.
     ///
     /// # Panics
     ///
@@ -123,16 +126,19 @@ impl Inequality {
         );
         assert!(radius.sign().is_ge(), "a radius must not be negative");
         let axis_squared = axis.length_squared();
+        let scaled_radius = &run * &radius;
         let offset = if radius.is_zero() {
             Exact::ZERO
         } else {
-            &(&run * &radius) * &axis_squared.sqrt(LENGTH_BITS)
+            &scaled_radius * &axis_squared.sqrt(LENGTH_BITS)
         };
+        let offset_squared = &scaled_radius.square() * &axis_squared;
         let cone = Cone {
             point: point.into(),
             axis,
             rise: rise.into(),
             offset,
+            offset_squared,
         };
         let within = Form::Cone {
             cone: cone.clone(),
@@ -147,28 +153,21 @@ impl Inequality {
     pub fn value(&self, x: &ExactVec3) -> Exact {
         match &self.0 {
             Form::Plane { point, normal } => (x - point).dot(normal),
-            Form::Sphere {
-                center,
-                radius_squared,
-            } => &(x - center).length_squared() - radius_squared,
+            Form::Sphere { center, radius_squared } => &(x - center).length_squared() - radius_squared,
             Form::Cylinder {
                 point,
                 axis,
                 axis_squared,
                 scaled_radius_squared,
-            } => {
-                &distance_from_axis_squared(&(x - point), axis, axis_squared)
-                    - scaled_radius_squared
-            }
+            } => &distance_from_axis_squared(&(x - point), axis, axis_squared) - scaled_radius_squared,
             Form::Cone {
                 cone,
                 axis_squared,
                 run_squared,
             } => {
                 let from_point = x - &cone.point;
-                let distance_squared =
-                    distance_from_axis_squared(&from_point, &cone.axis, axis_squared);
-                &(run_squared * &distance_squared) - &cone.width(&from_point).square()
+                let distance_squared = distance_from_axis_squared(&from_point, &cone.axis, axis_squared);
+                &(run_squared * &distance_squared) - &cone.width_squared(&from_point)
             }
             Form::ConeWidth { cone } => -cone.width(&(x - &cone.point)),
         }
@@ -182,11 +181,7 @@ impl Inequality {
 }
 
 /// The square of the distance from the axis, by Pythagoras, multiplied by the square of the length of the axis.
-fn distance_from_axis_squared(
-    from_point: &ExactVec3,
-    axis: &ExactVec3,
-    axis_squared: &Exact,
-) -> Exact {
+fn distance_from_axis_squared(from_point: &ExactVec3, axis: &ExactVec3, axis_squared: &Exact) -> Exact {
     &(&from_point.length_squared() * axis_squared) - &from_point.dot(axis).square()
 }
 
@@ -219,12 +214,9 @@ mod tests {
     fn a_cone_measures_along_an_axis_of_any_length() {
         // Radius 2 at z = 0, growing by 3/4 per unit of z, so 5 at z = 4 and nothing at z = -8/3.
         for length in [1.0_f32, 2.0, 0.125] {
-            let [within, width] =
-                Inequality::cone([0.0_f32; 3], [0.0, length, 0.0], 2.0_f32, 3.0_f32, 4.0_f32);
+            let [within, width] = Inequality::cone([0.0_f32; 3], [0.0, length, 0.0], 2.0_f32, 3.0_f32, 4.0_f32);
             assert_eq!(value(&within, [3.0, 4.0, 4.0]), 0.0);
-            assert!(
-                value(&within, [3.0, 4.0, 3.999]) < 0.0 && value(&within, [3.0, 4.0, 4.001]) > 0.0
-            );
+            assert!(value(&within, [3.0, 4.0, 3.999]) < 0.0 && value(&within, [3.0, 4.0, 4.001]) > 0.0);
             assert!(value(&width, [0.0, -2.6, 0.0]) < 0.0 && value(&width, [0.0, -2.7, 0.0]) > 0.0);
             // The mirror image satisfies the squared inequality, and only that.
             assert!(value(&within, [0.0, -9.0, 0.0]) < 0.0);

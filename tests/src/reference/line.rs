@@ -1,9 +1,10 @@
 //! A solid along a line: where the line is inside, and which parts of the solid change there.
 
 use super::Expr;
-use super::number::{Exact, ExactVec3};
+use super::number::Exact;
 use super::polynomial::Quadratic;
 use super::root::{Root, agree};
+use super::vector::ExactVec3;
 
 /// How many significant bits are enough for a place between two roots, unless these are very near to each other.
 const SAMPLE_BITS: usize = 48;
@@ -52,10 +53,7 @@ impl Line {
         roots.sort_unstable();
 
         let (cuts, samples) = cut(roots);
-        let pieces = samples
-            .iter()
-            .map(|t| Piece::at(solid, &polynomials, t))
-            .collect();
+        let pieces = samples.iter().map(|t| Piece::at(solid, &polynomials, t)).collect();
         Self { cuts, pieces }
     }
 
@@ -65,11 +63,7 @@ impl Line {
     #[must_use]
     pub fn spans(&self) -> Vec<(Root, Root)> {
         let mut spans = Vec::new();
-        let mut entry = self
-            .pieces
-            .first()
-            .filter(|piece| piece.inside)
-            .map(|_| Root::NegativeInfinity);
+        let mut entry = self.pieces.first().filter(|piece| piece.inside).map(|_| Root::NegativeInfinity);
         for crossing in self.crossings() {
             match entry.take() {
                 Some(entry) => spans.push((entry, crossing.t)),
@@ -101,8 +95,7 @@ impl Line {
     /// How many roots are at most `t`, which is the index of the piece that begins there or contains it.
     fn cuts_until(&self, t: f64) -> usize {
         let t = Root::from(t);
-        self.cuts
-            .partition_point(|root| Root::Finite(root.clone()).compare(&t).is_le())
+        self.cuts.partition_point(|root| Root::Finite(root.clone()).compare(&t).is_le())
     }
 
     /// The crossings among the roots from this index on.
@@ -131,9 +124,7 @@ impl Piece {
     /// What holds on the piece that contains `t`, which is a root of none of the polynomials that change.
     fn at(solid: &Expr, polynomials: &[Quadratic], t: &Exact) -> Self {
         let mut tags = Vec::new();
-        let mut leaves = polynomials
-            .iter()
-            .map(|polynomial| polynomial.sign_at(t).is_lt());
+        let mut leaves = polynomials.iter().map(|polynomial| polynomial.sign_at(t).is_lt());
         let inside = solid.evaluate(&mut leaves, &mut tags);
         Self { inside, tags }
     }
@@ -158,9 +149,7 @@ fn cut(roots: Vec<Exact>) -> (Vec<Exact>, Vec<Exact>) {
         }
         last = Some(root);
     }
-    samples.push(last.map_or(Exact::ZERO, |root| {
-        (&root + &(root.abs() + Exact::ONE)).rounded(SAMPLE_BITS)
-    }));
+    samples.push(last.map_or(Exact::ZERO, |root| (&root + &(root.abs() + Exact::ONE)).rounded(SAMPLE_BITS)));
     (cuts, samples)
 }
 

@@ -26,14 +26,16 @@ mod root;
 mod solids;
 #[cfg(test)]
 mod tests;
+mod vector;
 
 use glam::Vec3;
 
 pub use inequality::Inequality;
 pub use line::{Crossing, Line};
-pub use number::{Exact, ExactVec3};
+pub use number::Exact;
 use polynomial::Quadratic;
 pub use root::Root;
+pub use vector::ExactVec3;
 
 /// A solid: a boolean expression over inequalities in space.
 #[derive(Clone, Debug)]
@@ -153,12 +155,7 @@ impl Expr {
 
     /// The first place after `t_min` where the line goes in or out: [`Line::first_crossing_after`].
     #[must_use]
-    pub fn first_crossing_after(
-        &self,
-        origin: Vec3,
-        direction: Vec3,
-        t_min: f64,
-    ) -> Option<Crossing> {
+    pub fn first_crossing_after(&self, origin: Vec3, direction: Vec3, t_min: f64) -> Option<Crossing> {
         self.along(origin, direction).first_crossing_after(t_min)
     }
 
@@ -183,37 +180,23 @@ impl Expr {
     fn restrict(&self, points: &[ExactVec3; 3], polynomials: &mut Vec<Quadratic>) {
         match self {
             Self::Leaf(inequality) => {
-                let [before, at_zero, after] =
-                    points.each_ref().map(|point| inequality.value(point));
+                let [before, at_zero, after] = points.each_ref().map(|point| inequality.value(point));
                 polynomials.push(Quadratic::through(&before, &at_zero, &after));
             }
-            Self::And(inner) | Self::Or(inner) => inner
-                .iter()
-                .for_each(|inner| inner.restrict(points, polynomials)),
+            Self::And(inner) | Self::Or(inner) => inner.iter().for_each(|inner| inner.restrict(points, polynomials)),
             Self::Not(inner) | Self::Tagged { inner, .. } => inner.restrict(points, polynomials),
-            Self::Mapped { map, inner } => inner.restrict(
-                &points.each_ref().map(|point| map.apply(point)),
-                polynomials,
-            ),
+            Self::Mapped { map, inner } => inner.restrict(&points.each_ref().map(|point| map.apply(point)), polynomials),
         }
     }
 
     /// Whether a place is inside if these are the memberships of the leaves there, in the order of [`Self::restrict`].
     ///
-    /// Visits every leaf, for the order's sake and because every tag is to be reported: hence `&`, which takes no short cut.
-    fn evaluate(
-        &self,
-        leaves: &mut impl Iterator<Item = bool>,
-        tags: &mut Vec<(u32, bool)>,
-    ) -> bool {
+    /// Visits every leaf, for the sake of their order and of the tags: hence `&`, which takes no short cut.
+    fn evaluate(&self, leaves: &mut impl Iterator<Item = bool>, tags: &mut Vec<(u32, bool)>) -> bool {
         match self {
             Self::Leaf(_) => leaves.next().expect("every leaf has left its polynomial"),
-            Self::And(all) => all
-                .iter()
-                .fold(true, |inside, inner| inside & inner.evaluate(leaves, tags)),
-            Self::Or(any) => any
-                .iter()
-                .fold(false, |inside, inner| inside | inner.evaluate(leaves, tags)),
+            Self::And(all) => all.iter().fold(true, |inside, inner| inside & inner.evaluate(leaves, tags)),
+            Self::Or(any) => any.iter().fold(false, |inside, inner| inside | inner.evaluate(leaves, tags)),
             Self::Not(inner) => !inner.evaluate(leaves, tags),
             Self::Mapped { inner, .. } => inner.evaluate(leaves, tags),
             Self::Tagged { tag, inner } => {

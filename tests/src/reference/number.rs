@@ -1,4 +1,4 @@
-//! Exact binary numbers, and vectors of three of them.
+//! Exact binary numbers.
 //!
 //! Every finite `f32` and `f64` is an integer times a power of two. Sums, differences and products of such numbers are
 //! again such numbers, so they are carried without any rounding; only a quotient or a square root has to be cut
@@ -10,7 +10,6 @@ use core::ops::{Add, Mul, Neg, Sub};
 
 use dashu_float::round::mode::HalfEven;
 use dashu_float::{Context, FBig};
-use glam::Vec3;
 
 /// Base 2, and ties to even where a quotient or a root has to be rounded.
 type Float = FBig<HalfEven, 2>;
@@ -31,7 +30,11 @@ macro_rules! nearest {
             convert((magnitude + least_normal).rounded(digits)) - $format::MIN_POSITIVE
         } else {
             let rounded = magnitude.rounded(digits);
-            if rounded > Exact::from($format::MAX) { $format::INFINITY } else { convert(rounded) }
+            if rounded > Exact::from($format::MAX) {
+                $format::INFINITY
+            } else {
+                convert(rounded)
+            }
         };
         if $number.sign().is_lt() { -nearest } else { nearest }
     }};
@@ -65,11 +68,7 @@ impl Exact {
     /// The magnitude.
     #[must_use]
     pub fn abs(&self) -> Self {
-        if self.sign().is_lt() {
-            -self
-        } else {
-            self.clone()
-        }
+        if self.sign().is_lt() { -self } else { self.clone() }
     }
 
     /// The square, exact.
@@ -146,10 +145,7 @@ impl From<f64> for Exact {
     ///
     /// If the number is infinite or not a number.
     fn from(number: f64) -> Self {
-        assert!(
-            number.is_finite(),
-            "{number} is not a number the reference can take exactly"
-        );
+        assert!(number.is_finite(), "{number} is not a number the reference can take exactly");
         if number == 0.0 {
             return Self::ZERO;
         }
@@ -240,85 +236,6 @@ macro_rules! exact_operator {
 exact_operator!(Add, add);
 exact_operator!(Sub, sub);
 exact_operator!(Mul, mul);
-
-/// A point or a direction with exact coordinates.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct ExactVec3([Exact; 3]);
-
-impl ExactVec3 {
-    /// The sum of the products of the coordinates, exact.
-    #[must_use]
-    pub fn dot(&self, other: &Self) -> Exact {
-        let [x, y, z] = &self.0;
-        let [u, v, w] = &other.0;
-        x * u + y * v + z * w
-    }
-
-    /// The square of the length, exact.
-    #[must_use]
-    pub fn length_squared(&self) -> Exact {
-        let [x, y, z] = &self.0;
-        x.square() + y.square() + z.square()
-    }
-
-    /// The vector times a number, exact.
-    #[must_use]
-    pub fn times(&self, factor: &Exact) -> Self {
-        Self(self.0.each_ref().map(|coordinate| coordinate * factor))
-    }
-}
-
-impl Add for &ExactVec3 {
-    type Output = ExactVec3;
-
-    fn add(self, other: &ExactVec3) -> ExactVec3 {
-        let [x, y, z] = &self.0;
-        let [u, v, w] = &other.0;
-        ExactVec3([x + u, y + v, z + w])
-    }
-}
-
-impl Sub for &ExactVec3 {
-    type Output = ExactVec3;
-
-    fn sub(self, other: &ExactVec3) -> ExactVec3 {
-        let [x, y, z] = &self.0;
-        let [u, v, w] = &other.0;
-        ExactVec3([x - u, y - v, z - w])
-    }
-}
-
-impl Neg for &ExactVec3 {
-    type Output = ExactVec3;
-
-    fn neg(self) -> ExactVec3 {
-        ExactVec3(self.0.each_ref().map(|coordinate| -coordinate))
-    }
-}
-
-impl From<[Exact; 3]> for ExactVec3 {
-    fn from(coordinates: [Exact; 3]) -> Self {
-        Self(coordinates)
-    }
-}
-
-impl From<[f64; 3]> for ExactVec3 {
-    fn from(coordinates: [f64; 3]) -> Self {
-        Self(coordinates.map(Exact::from))
-    }
-}
-
-impl From<[f32; 3]> for ExactVec3 {
-    fn from(coordinates: [f32; 3]) -> Self {
-        Self(coordinates.map(Exact::from))
-    }
-}
-
-impl From<Vec3> for ExactVec3 {
-    fn from(vector: Vec3) -> Self {
-        Self::from(vector.to_array())
-    }
-}
 
 #[cfg(test)]
 mod tests {

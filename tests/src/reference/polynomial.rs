@@ -76,11 +76,7 @@ mod tests {
 
     fn quadratic(square: f64, linear: f64, constant: f64) -> Quadratic {
         let [square, linear, constant] = [square, linear, constant].map(Exact::from);
-        Quadratic {
-            square,
-            linear,
-            constant,
-        }
+        Quadratic { square, linear, constant }
     }
 
     fn roots(square: f64, linear: f64, constant: f64) -> Vec<f64> {
@@ -103,10 +99,7 @@ mod tests {
         assert_eq!(roots(0.0, 0.0, 1.0), [0.0; 0]);
         assert_eq!(roots(0.0, 0.0, 0.0), [0.0; 0]);
         // The smaller root of t² - 2¹⁰⁰ t + 1 would vanish in a difference.
-        assert_eq!(
-            roots(1.0, -f64::powi(2.0, 100), 1.0),
-            [f64::powi(2.0, -100), f64::powi(2.0, 100)]
-        );
+        assert_eq!(roots(1.0, -f64::powi(2.0, 100), 1.0), [f64::powi(2.0, -100), f64::powi(2.0, 100)]);
     }
 
     #[test]

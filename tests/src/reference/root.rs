@@ -89,16 +89,13 @@ impl Root {
     /// number, and beyond the largest finite number it stays what it is there.
     #[must_use]
     pub fn error_ulps(&self, value: f32) -> f64 {
-        self.error_in_units(value, ulp_exponent(self.to_f32()))
-            .abs()
+        self.error_in_units(value, ulp_exponent(self.to_f32())).abs()
     }
 
     /// `(value - self) / 2^exponent`.
     fn error_in_units(&self, value: f32, exponent: isize) -> f64 {
         match self {
-            Self::Finite(t) if value.is_finite() => {
-                (&Exact::from(value) - t).scaled(-exponent).to_f64()
-            }
+            Self::Finite(t) if value.is_finite() => (&Exact::from(value) - t).scaled(-exponent).to_f64(),
             // Both sides are now infinite in at least one place, so machine arithmetic is exact, but for ∞ - ∞.
             _ if f64::from(value) == self.to_f64() && self.finite().is_none() => 0.0,
             Self::Finite(_) => f64::from(value),
@@ -162,16 +159,10 @@ mod tests {
         assert_eq!(zero.error_ulps(-0.0), 0.0);
         assert_eq!(zero.error_ulps(f32::from_bits(3)), 3.0);
 
-        assert_eq!(
-            Root::from(f64::from(f32::MAX)).error_ulps(f32::MAX.next_down()),
-            1.0
-        );
+        assert_eq!(Root::from(f64::from(f32::MAX)).error_ulps(f32::MAX.next_down()), 1.0);
         assert_eq!(Root::from(1e39).error_ulps(f32::INFINITY), f64::INFINITY);
         assert_eq!(Root::PositiveInfinity.error_ulps(f32::INFINITY), 0.0);
-        assert_eq!(
-            Root::NegativeInfinity.error_ulps(f32::INFINITY),
-            f64::INFINITY
-        );
+        assert_eq!(Root::NegativeInfinity.error_ulps(f32::INFINITY), f64::INFINITY);
         assert_eq!(Root::NegativeInfinity.signed_error(3.0), f64::INFINITY);
         assert_eq!(Root::PositiveInfinity.signed_error(3.0), f64::NEG_INFINITY);
     }
@@ -180,29 +171,13 @@ mod tests {
     fn order_along_the_line() {
         let third = Exact::ONE.quotient(&Exact::from(3), 320);
         let other = Exact::from(2).quotient(&Exact::from(6), 310);
-        assert!(
-            Root::Finite(third.clone())
-                .compare(&Root::Finite(other))
-                .is_eq()
-        );
+        assert!(Root::Finite(third.clone()).compare(&Root::Finite(other)).is_eq());
         let beyond = &third + &Exact::ONE.scaled(-240);
         assert!(Root::Finite(third).compare(&Root::Finite(beyond)).is_lt());
-        assert!(
-            Root::from(0.0)
-                .compare(&Root::Finite(Exact::ONE.scaled(-401)))
-                .is_eq()
-        );
-        assert!(
-            Root::from(0.0)
-                .compare(&Root::Finite(Exact::ONE.scaled(-300)))
-                .is_lt()
-        );
+        assert!(Root::from(0.0).compare(&Root::Finite(Exact::ONE.scaled(-401))).is_eq());
+        assert!(Root::from(0.0).compare(&Root::Finite(Exact::ONE.scaled(-300))).is_lt());
         assert!(Root::NegativeInfinity.compare(&Root::from(-1e300)).is_lt());
         assert!(Root::PositiveInfinity.compare(&Root::from(1e300)).is_gt());
-        assert!(
-            Root::PositiveInfinity
-                .compare(&Root::from(f64::INFINITY))
-                .is_eq()
-        );
+        assert!(Root::PositiveInfinity.compare(&Root::from(f64::INFINITY)).is_eq());
     }
 }

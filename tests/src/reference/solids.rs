@@ -2,7 +2,8 @@
 //!
 //! Every parameter is a number the machine holds, `f32` or `f64`, taken exactly; directions need not have unit length.
 
-use super::number::{Exact, ExactVec3};
+use super::number::Exact;
+use super::vector::ExactVec3;
 use super::{Expr, Inequality};
 
 impl Expr {
@@ -17,11 +18,7 @@ impl Expr {
     }
 
     /// A cylinder that has no ends.
-    pub fn cylinder(
-        point: impl Into<ExactVec3>,
-        axis: impl Into<ExactVec3>,
-        radius: impl Into<Exact>,
-    ) -> Self {
+    pub fn cylinder(point: impl Into<ExactVec3>, axis: impl Into<ExactVec3>, radius: impl Into<Exact>) -> Self {
         Inequality::cylinder(point, axis, radius).into()
     }
 
@@ -32,12 +29,7 @@ impl Expr {
     ///
     /// If the sine is not positive, as the solid would not lie on the side the axis points to; or if the cosine is
     /// negative.
-    pub fn nappe(
-        apex: impl Into<ExactVec3>,
-        axis: impl Into<ExactVec3>,
-        sin: impl Into<Exact>,
-        cos: impl Into<Exact>,
-    ) -> Self {
+    pub fn nappe(apex: impl Into<ExactVec3>, axis: impl Into<ExactVec3>, sin: impl Into<Exact>, cos: impl Into<Exact>) -> Self {
         let sin = sin.into();
         assert!(sin.sign().is_gt(), "a nappe opens along its axis");
         flared(Inequality::cone(apex, axis, Exact::ZERO, sin, cos))
@@ -47,9 +39,7 @@ impl Expr {
     pub fn cuboid(min: impl Into<ExactVec3>, max: impl Into<ExactVec3>) -> Self {
         let (min, max) = (min.into(), max.into());
         let axes = [[1.0_f32, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].map(ExactVec3::from);
-        let faces = axes
-            .iter()
-            .flat_map(|axis| [capped_below(&min, axis), capped_above(&max, axis)]);
+        let faces = axes.iter().flat_map(|axis| [capped_below(&min, axis), capped_above(&max, axis)]);
         Self::And(faces.collect())
     }
 
@@ -64,11 +54,7 @@ impl Expr {
     ) -> Self {
         let (bottom, top, axis) = (bottom.into(), top.into(), axis.into());
         let side = Self::cylinder(bottom.clone(), axis.clone(), radius);
-        Self::And(vec![
-            side,
-            capped_below(&bottom, &axis),
-            capped_above(&top, &axis),
-        ])
+        Self::And(vec![side, capped_below(&bottom, &axis), capped_above(&top, &axis)])
     }
 
     /// A nappe up to the plane through the base: `run ρ < rise z`, with `z` along the axis from the apex.
@@ -104,26 +90,12 @@ impl Expr {
         run: impl Into<Exact>,
     ) -> Self {
         let (bottom, top, axis) = (bottom.into(), top.into(), axis.into());
-        let side = flared(Inequality::cone(
-            bottom.clone(),
-            axis.clone(),
-            bottom_radius,
-            rise,
-            run,
-        ));
-        Self::And(vec![
-            side,
-            capped_below(&bottom, &axis),
-            capped_above(&top, &axis),
-        ])
+        let side = flared(Inequality::cone(bottom.clone(), axis.clone(), bottom_radius, rise, run));
+        Self::And(vec![side, capped_below(&bottom, &axis), capped_above(&top, &axis)])
     }
 
     /// The points nearer than the radius to the segment between two points, which may be the same.
-    pub fn capsule(
-        a: impl Into<ExactVec3>,
-        b: impl Into<ExactVec3>,
-        radius: impl Into<Exact>,
-    ) -> Self {
+    pub fn capsule(a: impl Into<ExactVec3>, b: impl Into<ExactVec3>, radius: impl Into<Exact>) -> Self {
         let (a, b, radius) = (a.into(), b.into(), radius.into());
         let axis = &b - &a;
         let ends = [&a, &b].map(|end| Self::sphere(end.clone(), radius.clone()));

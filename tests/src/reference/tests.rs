@@ -41,20 +41,14 @@ fn boxes_that_share_a_face_are_one_span() {
 
     let crossings = both.crossings(middle, X);
     assert_eq!(
-        crossings
-            .iter()
-            .map(|crossing| crossing.leaves.as_slice())
-            .collect::<Vec<_>>(),
+        crossings.iter().map(|crossing| crossing.leaves.as_slice()).collect::<Vec<_>>(),
         [[1], [2]]
     );
 
     // A line within a face of the box is outside it.
     assert_eq!(spans(&left, vec3(-1.0, 0.0, 0.5), X), []);
     assert_eq!(spans(&left, vec3(-1.0, 0.5, 1.0), X), []);
-    assert_eq!(
-        spans(&left, vec3(-1.0, 0.5, 1.0_f32.next_down()), X).len(),
-        1
-    );
+    assert_eq!(spans(&left, vec3(-1.0, 0.5, 1.0_f32.next_down()), X).len(), 1);
 }
 
 #[test]
@@ -64,10 +58,7 @@ fn a_line_within_a_plane_is_outside() {
     assert_eq!(spans(&ground, -Y, X), [(-INFINITY, INFINITY)]);
     assert_eq!(spans(&ground, Y, Y), [(-INFINITY, -1.0)]);
     assert_eq!(spans(&ground, Y, -Y), [(1.0, INFINITY)]);
-    assert_eq!(
-        spans(&ground.complement(), Vec3::ZERO, X),
-        [(-INFINITY, INFINITY)]
-    );
+    assert_eq!(spans(&ground.complement(), Vec3::ZERO, X), [(-INFINITY, INFINITY)]);
 }
 
 #[test]
@@ -106,13 +97,16 @@ fn cones_end_at_their_caps() {
 
     // Radius 5 at z = 1, narrowing to 2 at z = 5; the apex is at z = 23/3.
     let frustum = |top| Expr::capped_cone(Z, Z * top, Z, 5.0_f32, -3.0_f32, 4.0_f32);
-    assert_eq!(
-        spans(&frustum(5.0), vec3(-10.0, 0.0, 3.0), X),
-        [(6.5, 13.5)]
-    );
+    assert_eq!(spans(&frustum(5.0), vec3(-10.0, 0.0, 3.0), X), [(6.5, 13.5)]);
     assert_eq!(spans(&frustum(5.0), Vec3::ZERO, Z), [(1.0, 5.0)]);
     assert_eq!(spans(&frustum(9.0), Vec3::ZERO, Z), [(1.0, 23.0 / 3.0)]);
     assert_eq!(spans(&frustum(50.0), vec3(0.0, 0.0, 9.0), X), []);
+
+    // A side that does not widen is that of a cylinder, which holds none of the lines within it.
+    let axis = vec3(1.0, 1.0, 0.0);
+    let straight = Expr::capped_cone(Vec3::ZERO, axis, axis, 3.0_f32, 0.0_f32, 0.7_f32);
+    assert_eq!(spans(&straight, vec3(0.0, 0.0, 3.0), axis), []);
+    assert_eq!(spans(&straight, vec3(0.0, 0.0, 2.5), axis), [(0.0, 1.0)]);
 
     let cylinder = Expr::capped_cylinder(Z, Z * 5.0, Z * 0.5, 2.0_f32);
     assert_eq!(spans(&cylinder, Vec3::ZERO, Z), [(1.0, 5.0)]);
@@ -139,10 +133,7 @@ fn crossings_say_what_changes() {
     ];
     assert_eq!(found, expected);
 
-    let first = |t| {
-        line.first_crossing_after(t)
-            .map(|crossing| crossing.t.to_f64())
-    };
+    let first = |t| line.first_crossing_after(t).map(|crossing| crossing.t.to_f64());
     assert_eq!(first(-INFINITY), Some(1.0));
     assert_eq!(first(1.0_f64.next_down()), Some(1.0));
     assert_eq!(first(1.0), Some(2.0));
@@ -150,18 +141,14 @@ fn crossings_say_what_changes() {
     assert_eq!(first(INFINITY), None);
 
     let inside = [-INFINITY, 0.0, 1.0, 2.0, 3.0, 4.0, 5.0, INFINITY].map(|t| line.inside_at(t));
-    assert_eq!(
-        inside,
-        [false, false, true, false, false, true, false, false]
-    );
+    assert_eq!(inside, [false, false, true, false, false, true, false, false]);
 }
 
 #[test]
 fn a_map_moves_the_point_before_it_is_asked() {
     // local = 2 (x - origin), with x and y exchanged.
     let linear = [[0.0, 2.0, 0.0], [2.0, 0.0, 0.0], [0.0, 0.0, 2.0]];
-    let solid =
-        Expr::cuboid(Vec3::ZERO, vec3(2.0, 4.0, 6.0)).mapped(linear, vec3(10.0, 20.0, 30.0));
+    let solid = Expr::cuboid(Vec3::ZERO, vec3(2.0, 4.0, 6.0)).mapped(linear, vec3(10.0, 20.0, 30.0));
     assert_eq!(spans(&solid, vec3(0.0, 20.5, 31.0), X), [(10.0, 12.0)]);
     assert_eq!(spans(&solid, vec3(10.5, 0.0, 31.0), Y), [(20.0, 21.0)]);
     assert!(solid.contains(vec3(11.9, 20.9, 32.9)) && !solid.contains(vec3(11.9, 21.0, 32.9)));
@@ -170,16 +157,10 @@ fn a_map_moves_the_point_before_it_is_asked() {
 #[test]
 fn nothing_and_everything() {
     assert_eq!(spans(&Expr::Or(vec![]), Vec3::ZERO, X), []);
-    assert_eq!(
-        spans(&Expr::And(vec![]), Vec3::ZERO, X),
-        [(-INFINITY, INFINITY)]
-    );
+    assert_eq!(spans(&Expr::And(vec![]), Vec3::ZERO, X), [(-INFINITY, INFINITY)]);
     // A direction of no length stays where it is.
     let ball = Expr::sphere(Vec3::ZERO, 1.0_f32);
-    assert_eq!(
-        spans(&ball, Vec3::ZERO, Vec3::ZERO),
-        [(-INFINITY, INFINITY)]
-    );
+    assert_eq!(spans(&ball, Vec3::ZERO, Vec3::ZERO), [(-INFINITY, INFINITY)]);
     assert_eq!(spans(&ball, X, Vec3::ZERO), []);
 }
 
@@ -204,35 +185,16 @@ fn primitive() -> impl Strategy<Value = Expr> {
     prop_oneof![
         (coarse_vector(), direction()).prop_map(|(point, normal)| Expr::half_space(point, normal)),
         (coarse_vector(), size()).prop_map(|(center, radius)| Expr::sphere(center, radius)),
-        (coarse_vector(), direction(), size())
-            .prop_map(|(point, axis, radius)| Expr::cylinder(point, axis, radius)),
-        (coarse_vector(), direction(), size(), size())
-            .prop_map(|(apex, axis, sin, cos)| Expr::nappe(apex, axis, sin, cos)),
+        (coarse_vector(), direction(), size()).prop_map(|(point, axis, radius)| Expr::cylinder(point, axis, radius)),
+        (coarse_vector(), direction(), size(), size()).prop_map(|(apex, axis, sin, cos)| Expr::nappe(apex, axis, sin, cos)),
         (coarse_vector(), coarse_vector()).prop_map(|(a, b)| Expr::cuboid(a.min(b), a.max(b))),
-        (coarse_vector(), coarse_vector(), direction(), size()).prop_map(
-            |(bottom, top, axis, radius)| Expr::capped_cylinder(bottom, top, axis, radius)
-        ),
-        (
-            coarse_vector(),
-            coarse_vector(),
-            direction(),
-            size(),
-            size()
-        )
+        (coarse_vector(), coarse_vector(), direction(), size())
+            .prop_map(|(bottom, top, axis, radius)| Expr::capped_cylinder(bottom, top, axis, radius)),
+        (coarse_vector(), coarse_vector(), direction(), size(), size())
             .prop_map(|(apex, base, axis, rise, run)| Expr::cone(apex, base, axis, rise, run)),
-        (
-            coarse_vector(),
-            coarse_vector(),
-            direction(),
-            size(),
-            coarse(),
-            size()
-        )
-            .prop_map(|(bottom, top, axis, radius, rise, run)| Expr::capped_cone(
-                bottom, top, axis, radius, rise, run
-            )),
-        (coarse_vector(), coarse_vector(), size())
-            .prop_map(|(a, b, radius)| Expr::capsule(a, b, radius)),
+        (coarse_vector(), coarse_vector(), direction(), size(), coarse(), size())
+            .prop_map(|(bottom, top, axis, radius, rise, run)| Expr::capped_cone(bottom, top, axis, radius, rise, run)),
+        (coarse_vector(), coarse_vector(), size()).prop_map(|(a, b, radius)| Expr::capsule(a, b, radius)),
     ]
 }
 
@@ -243,14 +205,8 @@ fn solid() -> impl Strategy<Value = Expr> {
             prop::collection::vec(inner.clone(), 1..4).prop_map(Expr::Or),
             (inner.clone(), inner.clone()).prop_map(|(a, b)| a.minus(b)),
             (inner.clone(), 0..4_u32).prop_map(|(inner, tag)| inner.tagged(tag)),
-            (
-                [coarse_vector(), coarse_vector(), coarse_vector()],
-                coarse_vector(),
-                inner
-            )
-                .prop_map(
-                    |(rows, origin, inner)| inner.mapped(rows.map(|row| row.to_array()), origin)
-                ),
+            ([coarse_vector(), coarse_vector(), coarse_vector()], coarse_vector(), inner)
+                .prop_map(|(rows, origin, inner)| inner.mapped(rows.map(|row| row.to_array()), origin)),
         ]
     })
 }
@@ -264,12 +220,7 @@ fn spans_contain(spans: &[(Root, Root)], t: f64) -> bool {
 }
 
 /// Asks the point itself at many places, without polynomial and without root.
-fn check_against_samples(
-    solid: &Expr,
-    line: &Line,
-    origin: Vec3,
-    direction: Vec3,
-) -> Result<(), TestCaseError> {
+fn check_against_samples(solid: &Expr, line: &Line, origin: Vec3, direction: Vec3) -> Result<(), TestCaseError> {
     let spans = line.spans();
     let (start, step) = (ExactVec3::from(origin), ExactVec3::from(direction));
     for index in -200..=200_i32 {
