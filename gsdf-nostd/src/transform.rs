@@ -95,6 +95,12 @@ impl Transform {
         self.stretch
     }
 
+    /// The rows of the matrix that takes world vectors to local ones.
+    #[must_use]
+    pub const fn to_local(&self) -> [Vec3; 3] {
+        self.to_local
+    }
+
     /// The local origin, in the world.
     #[must_use]
     pub const fn origin(&self) -> Vec3 {
