@@ -3,22 +3,22 @@
 use crate::reference::{Exact, ExactVec3, Root};
 use crate::shape::Shape;
 use glam::Vec3;
-use gsdf_nostd::{Line, Solid, Span, Toward, V3};
+use gsdf_nostd::{Lane, Line, Solid, Toward, V3};
 
 /// The unit roundoff of `f32`.
 pub const ROUNDOFF: f64 = 1.0 / 16_777_216.0;
 
-/// A leaf's span along a ray as the library computes it.
+/// A leaf's span along a ray as the library computes it in the arithmetic of `like`, as `f64`s.
 ///
 /// # Panics
 /// Where the library refuses the shape, which generators do not make.
-#[must_use]
-pub fn computed_span(shape: &Shape, origin: Vec3, direction: Vec3) -> Span<f32> {
-    let leaf = shape.leaf().expect("generators make valid shapes");
-    leaf.span_along(&Line {
-        origin: V3::from(origin),
-        toward: Toward::new(V3::from(direction)),
-    })
+pub fn computed_span<T: Lane + Into<f64>>(trial: &Trial, like: T) -> (f64, f64) {
+    let leaf = trial.shape.leaf().expect("generators make valid shapes");
+    let span = leaf.span_along(&Line {
+        origin: V3::splat(like, trial.origin),
+        toward: Toward::new(V3::splat(like, trial.direction)),
+    });
+    (span.enter.into(), span.exit.into())
 }
 
 /// Farther along a ray than any coordinate reaches: 2^100.
@@ -47,54 +47,65 @@ impl Trial {
         spans.into_iter().next()
     }
 
-    /// One rounding error of the numbers that meet at parameter `t`, as a length.
-    fn rounding_at(&self, t: f64) -> f64 {
+    /// The size of the numbers that meet at parameter `t`, a length: what rounding errors are relative to.
+    fn scale_at(&self, t: f64) -> f64 {
         let travelled = t.abs() * self.direction.as_dvec3().length();
-        ROUNDOFF * (self.origin.as_dvec3().length() + self.shape.extent() + travelled)
+        self.origin.as_dvec3().length() + self.shape.extent() + travelled
     }
 
-    /// Parameters at which the computed and the exact span disagree on membership, a few in each interval in which they do, and whether the exact one is inside.
-    fn disagreements(&self, span: Span<f32>) -> Vec<(f64, bool)> {
+    /// How many rounding errors explain a computed span: the least power of two `k`, from 1/4 to 2^20, such that wherever it disagrees with the exact one the point of the ray
+    /// is within `k` rounding errors of the surface. `roundoff` is that of the arithmetic.
+    #[must_use]
+    pub fn roundings(&self, computed: (f64, f64), roundoff: f64) -> f64 {
         let exact = self
             .exact_span()
             .map_or((f64::INFINITY, f64::NEG_INFINITY), |(enter, exit)| (enter.to_f64(), exit.to_f64()));
-        let computed = (f64::from(span.enter), f64::from(span.exit));
-        let mut ends = vec![-BEYOND, exact.0, exact.1, computed.0, computed.1, BEYOND];
-        ends.retain(|end| end.is_finite());
-        ends.sort_by(f64::total_cmp);
-        let mut found = Vec::new();
-        for pair in ends.windows(2) {
-            let (low, high) = (pair[0], pair[1]);
-            let inside = |span: (f64, f64)| span.0 <= low && high <= span.1;
-            if low < high && inside(exact) != inside(computed) {
-                let share = |f: f64| low + f * (high - low);
-                // Near the finite ends, and further out step by step where the interval is endless.
-                let near = [1e-6, 0.25, 0.5, 0.75, 1.0 - 1e-6].map(share);
-                let far = [1.0, 1e3, 1e6, 1e12].map(|step| if low == -BEYOND { high - step } else { low + step });
-                let samples = near.into_iter().chain(far).filter(|t| low < *t && *t < high);
-                found.extend(samples.map(|t| (t, inside(exact))));
-            }
-        }
-        found
-    }
-
-    /// How many rounding errors explain the computed span: the least power of two `k`, from 1/4 to 2^20, such that wherever it disagrees with the exact one the point of the ray
-    /// is within `k` rounding errors of the surface.
-    #[must_use]
-    pub fn roundings(&self, span: Span<f32>) -> f64 {
-        let explained = |t: f64, inside: bool, roundings: f64| {
-            let offset = roundings * self.rounding_at(t);
-            let (origin, direction) = (ExactVec3::from(self.origin), ExactVec3::from(self.direction));
-            let point = &origin + &direction.times(&Exact::from(t));
-            // What is inside must not be so by more than the offset, what is outside must be inside with it.
-            inside != self.shape.exact(if inside { -offset } else { offset }).contains(point)
-        };
         let mut roundings = 0.25;
-        for (t, inside) in self.disagreements(span) {
-            while !explained(t, inside, roundings) && roundings < 1_048_576.0 {
+        for (t, inside) in disagreements(&[exact], &[computed]) {
+            // What is inside must not be so by more than the offset, what is outside must be inside with it.
+            let explained = |roundings: f64| {
+                let offset = roundings * roundoff * self.scale_at(t);
+                inside != self.shape.exact(if inside { -offset } else { offset }).contains(point_at(self.origin, self.direction, t))
+            };
+            while !explained(roundings) && roundings < 1_048_576.0 {
                 roundings *= 2.0;
             }
         }
         roundings
     }
+
+    /// Whether the point at `t` is within `roundings` rounding errors of the surface.
+    #[must_use]
+    pub fn is_near_surface(&self, t: f64, roundings: f64) -> bool {
+        let offset = roundings * ROUNDOFF * self.scale_at(t);
+        let contains = |offset| self.shape.exact(offset).contains(point_at(self.origin, self.direction, t));
+        contains(offset) && !contains(-offset)
+    }
+}
+
+/// The exact point of a ray.
+fn point_at(origin: Vec3, direction: Vec3, t: f64) -> ExactVec3 {
+    &ExactVec3::from(origin) + &ExactVec3::from(direction).times(&Exact::from(t))
+}
+
+/// Parameters at which two sets of spans disagree on membership, a few in each interval in which they do, and whether the first set is inside there.
+#[must_use]
+pub fn disagreements(first: &[(f64, f64)], second: &[(f64, f64)]) -> Vec<(f64, bool)> {
+    let mut ends = vec![-BEYOND, BEYOND];
+    ends.extend(first.iter().chain(second).flat_map(|&(enter, exit)| [enter, exit]).filter(|end| end.is_finite()));
+    ends.sort_by(f64::total_cmp);
+    let mut found = Vec::new();
+    for pair in ends.windows(2) {
+        let (low, high) = (pair[0], pair[1]);
+        let inside = |spans: &[(f64, f64)]| spans.iter().any(|&(enter, exit)| enter <= low && high <= exit);
+        if low < high && inside(first) != inside(second) {
+            let share = |f: f64| low + f * (high - low);
+            // Near the finite ends, and further out step by step where the interval is endless.
+            let near = [1e-6, 0.25, 0.5, 0.75, 1.0 - 1e-6].map(share);
+            let far = [1.0, 1e3, 1e6, 1e12].map(|step| if low == -BEYOND { high - step } else { low + step });
+            let samples = near.into_iter().chain(far).filter(|t| low < *t && *t < high);
+            found.extend(samples.map(|t| (t, inside(first))));
+        }
+    }
+    found
 }

@@ -113,9 +113,9 @@ impl CappedCone {
         let bottom_radius = like.splat_like(self.bottom_radius);
         let k = self.height(like) * scale;
         let axis = V3::splat(like, self.axis);
-        // The length of a vector that is nearly of unit length, to first order in what is missing.
-        let half = like.splat_like(0.5);
-        let axis_length = half + half * axis.norm_squared();
+        // The length of a vector that is nearly of unit length: √(1 + e) up to e³.
+        let excess = axis.norm_squared() - like.splat_like(1.0);
+        let axis_length = like.splat_like(1.0) + excess * (like.splat_like(0.5) - excess * like.splat_like(0.125));
         Profile {
             axis,
             r: bottom_radius * k * axis_length,
