@@ -103,9 +103,9 @@ fn axis(rng: &mut impl Rng) -> Vec3 {
 }
 
 impl Shape {
-    /// A random solid of the given kind, about `size` large, within a few sizes of the origin.
-    pub fn random<R: Rng>(rng: &mut R, kind: usize, size: f64) -> Self {
-        let place = |rng: &mut R| (unit(rng) * size * rng.random_range(0.0..4.0)).as_vec3();
+    /// A random solid of the given kind, about `size` large, within `spread` sizes of the origin.
+    pub fn random<R: Rng>(rng: &mut R, kind: usize, size: f64, spread: f64) -> Self {
+        let place = |rng: &mut R| (unit(rng) * size * rng.random_range(0.0..spread)).as_vec3();
         let length = |rng: &mut R| (size * log_uniform(rng, 0.1, 2.0)) as f32;
         let (point, axis, radius) = (place(rng), axis(rng), length(rng));
         let other = point + axis * length(rng);

@@ -20,7 +20,7 @@ fn trials(kind: usize) -> Vec<(Class, Trial)> {
     (0..RAYS)
         .map(|number| {
             let size = log_uniform(&mut rng, 1e-2, 1e3);
-            let shape = Shape::random(&mut rng, kind, size);
+            let shape = Shape::random(&mut rng, kind, size, 4.0);
             let reach = if number % 2 == 0 { 1e2 } else { 1e5 };
             corpus::ray(&mut rng, &shape, size, reach)
         })
