@@ -4,3 +4,8 @@ pub mod corpus;
 pub mod reference;
 pub mod sandwich;
 pub mod shape;
+
+/// The README's code, compiled and run as it stands.
+#[cfg(doctest)]
+#[doc = include_str!("../../README.md")]
+pub struct Readme;

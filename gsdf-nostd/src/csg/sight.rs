@@ -79,10 +79,16 @@ impl<'a, L: Solid> Program<'a, L> {
 }
 
 impl<const N: usize, L: Solid> Csg<N, L> {
+    /// Scratch memory enough for [`Program::along`].
+    #[must_use]
+    pub const fn scratch(&self) -> [Span<f32>; N] {
+        [Span::EMPTY; N]
+    }
+
     /// The program as the ray sees it.
     #[must_use]
     pub fn along<R: Start>(&self, start: R) -> Sight<'_, L, [Span<f32>; N], R> {
-        let mut spans = [Span::EMPTY; N];
+        let mut spans = self.scratch();
         let program = self.program();
         program.fill(&start, &mut spans);
         Sight { program, start, spans }

@@ -18,7 +18,7 @@ use glam::Vec3;
 ///
 /// - Standard: the nearer of the caps' and the side's segments in the half-plane through the axis, exact. Source: I. Quilez, Distance functions.
 /// - Along a ray: the side's span and the slab's, intersected. The side is taken from the bottom, not from an apex that may be far away or not there at all.
-/// - Accuracy: 20 units roundoff times the conditioning of the inputs. Cost: that of a [`Nappe`](super::Nappe) and one division.
+/// - Accuracy: 8 rounding errors, as the [crate](crate#accuracy) counts them. Cost: that of a [`Nappe`](super::Nappe) and one division.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CappedCone {
     bottom: Vec3,

@@ -17,7 +17,7 @@ use glam::Vec3;
 ///
 /// - Standard: the nearer of the base's and the side's segment in the half-plane through the axis, exact. Source: I. Quilez, Distance functions.
 /// - Along a ray: the nappe's span and the half-space's, intersected. (The paper calls it a union; it is the intersection, and of a single nappe.)
-/// - Accuracy: 20 units roundoff times the conditioning of the inputs. Cost: that of a [`Nappe`](super::Nappe) and one division.
+/// - Accuracy: 8 rounding errors, as the [crate](crate#accuracy) counts them. Cost: that of a [`Nappe`](super::Nappe) and one division.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cone {
     apex: Vec3,

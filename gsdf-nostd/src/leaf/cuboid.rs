@@ -17,7 +17,7 @@ use glam::Vec3;
 /// - Standard: with `d = |p - c| - h` by components, `|max(d, 0)| + min(max(d), 0)`, exact. Source: I. Quilez, Distance functions.
 /// - Along a ray: the last entry into and the first exit from three slabs (T. Kay, J. Kajiya, Ray Tracing Complex Scenes, 1986). (The paper's three planes at the nearest corner bound
 ///   an octant: the missing test, entry before exit, turns misses into hits.)
-/// - Accuracy: 2 units roundoff times the conditioning of the inputs. Cost: six products; the three divisions belong to the ray.
+/// - Accuracy: 8 rounding errors, as the [crate](crate#accuracy) counts them. Cost: six products; the three divisions belong to the ray.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cuboid {
     min: Vec3,

@@ -15,7 +15,7 @@ use glam::Vec3;
 /// - Standard: `(p - s) . n`, exact.
 /// - Along a ray: the root is `t = -(p - s) . n / (v . n)`. (The paper prints it without the minus.) A ray parallel to the plane is inside all the way or never,
 ///   a ray in the plane never.
-/// - Accuracy: 2 units roundoff times the conditioning of the inputs. Cost: two scalar products, one division.
+/// - Accuracy: 8 rounding errors, as the [crate](crate#accuracy) counts them. Cost: two scalar products, one division.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HalfSpace {
     point: Vec3,

@@ -16,7 +16,7 @@ use glam::Vec3;
 ///   (The paper's lacks the sign, and measures from the world's origin.)
 /// - Along a ray: see the module's source for the derivation. (The paper prints a root for both nappes with a factor of 2 too many; its standard form means one nappe.)
 ///   A ray parallel to a generatrix is no special case.
-/// - Accuracy: 20 units roundoff times the conditioning of the inputs. Cost: five cross products, one square root, two divisions.
+/// - Accuracy: 8 rounding errors, as the [crate](crate#accuracy) counts them. Cost: five cross products, one square root, two divisions.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Nappe {
     apex: Vec3,

@@ -5,17 +5,31 @@
 
 use core::hint::black_box;
 
-use glam::Vec3;
+use glam::{Vec3, vec3};
+use gsdf_nostd::{CappedCylinder, Csg, Cuboid, Sphere, csg, leaf_set};
 
-/// Distance from `origin` to the scene along `direction`.
-fn distance(origin: Vec3, direction: Vec3) -> f32 {
-    origin.dot(direction)
+leaf_set! {
+    /// The solids of the scene, so that no others are linked.
+    enum Part { Cuboid(Cuboid), Sphere(Sphere), CappedCylinder(CappedCylinder) }
 }
+
+csg! {
+    /// A rounded block with a hole along each axis.
+    const BLOCK: Part = difference(
+        intersection(Cuboid::new(Vec3::NEG_ONE, Vec3::ONE), Sphere::new(Vec3::ZERO, 1.35)),
+        CappedCylinder::new(vec3(-1.5, 0.0, 0.0), vec3(1.5, 0.0, 0.0), Vec3::X, 0.6),
+        CappedCylinder::new(vec3(0.0, -1.5, 0.0), vec3(0.0, 1.5, 0.0), Vec3::Y, 0.6),
+        CappedCylinder::new(vec3(0.0, 0.0, -1.5), vec3(0.0, 0.0, 1.5), Vec3::Z, 0.6)
+    )
+}
+
+/// The scene, in flash.
+static SCENE: Csg<9, Part> = BLOCK;
 
 #[cortex_m_rt::entry]
 fn main() -> ! {
-    // Neither the ray nor the result may be known to the compiler, or it would compute the distance itself.
+    // Neither scene nor ray nor result may be known to the compiler, or it would compute the distance itself.
     let (origin, direction) = black_box((Vec3::new(0.0, 0.0, -3.0), Vec3::Z));
-    black_box(distance(origin, direction));
+    black_box(black_box(&SCENE).gsdf(origin, direction));
     gsdf_firmware::stop()
 }
