@@ -1,0 +1,107 @@
+//! Files that are either whole or not there, and a standard output that may go away.
+
+use anyhow::{Context, Result};
+use image::RgbImage;
+use image::codecs::png::PngEncoder;
+use std::fs::{self, File};
+use std::io::{self, BufWriter, ErrorKind, Write};
+use std::path::{Path, PathBuf};
+use std::process;
+
+/// Makes sure of a directory that can be written to, before any work is put into what shall lie in it.
+///
+/// # Errors
+/// Where it cannot be made, or no file can be made in it.
+pub fn prepare(directory: &Path) -> Result<()> {
+    fs::create_dir_all(directory).with_context(|| format!("cannot make the directory {}", directory.display()))?;
+    let probe = temporary(&directory.join("probe"));
+    File::create(&probe)
+        .and_then(|_| fs::remove_file(&probe))
+        .with_context(|| format!("cannot write to the directory {}", directory.display()))
+}
+
+/// Writes a picture as PNG: under a temporary name beside its own, which it gets when it is whole.
+///
+/// # Errors
+/// Where the file cannot be written or renamed. Then nothing is left of it.
+pub fn write_png(image: &RgbImage, path: &Path) -> Result<()> {
+    let temporary = temporary(path);
+    let written = encode(image, &temporary).and_then(|()| Ok(fs::rename(&temporary, path)?));
+    if written.is_err() {
+        // What matters is the error above; there may be nothing to remove.
+        let _ = fs::remove_file(&temporary);
+    }
+    written.with_context(|| format!("cannot write {}", path.display()))
+}
+
+fn encode(image: &RgbImage, path: &Path) -> Result<()> {
+    let mut file = BufWriter::new(File::create(path)?);
+    image.write_with_encoder(PngEncoder::new(&mut file))?;
+    // Dropping it would flush too, and keep quiet about a full disk.
+    file.flush()?;
+    Ok(())
+}
+
+/// A name in the same directory, so that renaming is one step, and another one for each process.
+fn temporary(path: &Path) -> PathBuf {
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    path.with_file_name(format!(".{name}.{}.part", process::id()))
+}
+
+/// Writes a line to standard output. That nobody reads it any more is no error: the pictures are the result.
+///
+/// # Errors
+/// Where standard output is there and cannot be written to.
+pub fn say(line: &str) -> Result<()> {
+    let mut output = io::stdout().lock();
+    match writeln!(output, "{line}").and_then(|()| output.flush()) {
+        Err(error) if error.kind() != ErrorKind::BrokenPipe => Err(error).context("cannot write to standard output"),
+        _ => Ok(()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{prepare, write_png};
+    use anyhow::Result;
+    use image::{Rgb, RgbImage};
+    use std::path::PathBuf;
+    use std::{env, fs, process};
+
+    /// A directory of its own for a test.
+    fn directory(name: &str) -> PathBuf {
+        env::temp_dir().join(format!("gsdf-{name}-{}", process::id()))
+    }
+
+    #[test]
+    fn a_picture_comes_back_and_nothing_lies_beside_it() -> Result<()> {
+        let directory = directory("picture");
+        prepare(&directory.join("deep"))?;
+        let path = directory.join("deep/one.png");
+        let image = RgbImage::from_pixel(3, 2, Rgb([1, 2, 3]));
+        // Twice: a picture that is there is replaced.
+        write_png(&image, &path)?;
+        write_png(&image, &path)?;
+        assert_eq!(image::open(&path)?.into_rgb8(), image);
+        assert_eq!(fs::read_dir(directory.join("deep"))?.count(), 1);
+        fs::remove_dir_all(directory)?;
+        Ok(())
+    }
+
+    #[test]
+    fn what_cannot_be_written_is_named_and_leaves_nothing() -> Result<()> {
+        let directory = directory("failure");
+        fs::create_dir_all(directory.join("taken.png"))?;
+        let image = RgbImage::new(1, 1);
+        // A directory is in the way of the file.
+        let error = write_png(&image, &directory.join("taken.png")).expect_err("something is in the way");
+        assert!(error.to_string().contains("taken.png"), "{error}");
+        assert_eq!(fs::read_dir(&directory)?.count(), 1);
+        // And a file in the way of the directory.
+        fs::write(directory.join("file"), "")?;
+        let error = prepare(&directory.join("file/gallery")).expect_err("something is in the way");
+        assert!(error.to_string().contains("file/gallery"), "{error}");
+        fs::remove_dir_all(directory)?;
+        Ok(())
+    }
+}
