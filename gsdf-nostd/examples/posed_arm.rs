@@ -4,7 +4,7 @@
 
 use core::f32::consts::PI;
 use glam::{Mat3, Vec3, vec3};
-use gsdf_nostd::{Camera, Capsule, CappedCylinder, Cuboid, Sphere, Transform, csg};
+use gsdf_nostd::{Camera, CappedCylinder, Capsule, Cuboid, Sphere, Transform, csg};
 
 csg! {
     /// A stand in the world and an arm in frame 1, whose origin is the joint.

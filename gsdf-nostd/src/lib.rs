@@ -83,7 +83,8 @@ mod vec3;
 
 pub use camera::{Camera, Projection, Raster};
 pub use csg::{
-    Attribution, Crossing, Crossings, Csg, Departure, Draft, Hit, March, Node, Program, ProgramError, Sight, Start, attribute, march, sweep,
+    Anywhere, Attribution, Crossing, Crossings, Csg, Departure, Draft, Encounter, Footing, Hit, March, Node, OnSurface, Program,
+    ProgramError, Sight, Start, attribute, march, sweep,
 };
 pub use invalid::{Fault, Invalid};
 pub use leaf::{

@@ -65,7 +65,11 @@ impl Trial {
             // What is inside must not be so by more than the offset, what is outside must be inside with it.
             let explained = |roundings: f64| {
                 let offset = roundings * roundoff * self.scale_at(t);
-                inside != self.shape.exact(if inside { -offset } else { offset }).contains(point_at(self.origin, self.direction, t))
+                inside
+                    != self
+                        .shape
+                        .exact(if inside { -offset } else { offset })
+                        .contains(point_at(self.origin, self.direction, t))
             };
             while !explained(roundings) && roundings < 1_048_576.0 {
                 roundings *= 2.0;
@@ -92,7 +96,13 @@ fn point_at(origin: Vec3, direction: Vec3, t: f64) -> ExactVec3 {
 #[must_use]
 pub fn disagreements(first: &[(f64, f64)], second: &[(f64, f64)]) -> Vec<(f64, bool)> {
     let mut ends = vec![-BEYOND, BEYOND];
-    ends.extend(first.iter().chain(second).flat_map(|&(enter, exit)| [enter, exit]).filter(|end| end.is_finite()));
+    ends.extend(
+        first
+            .iter()
+            .chain(second)
+            .flat_map(|&(enter, exit)| [enter, exit])
+            .filter(|end| end.is_finite()),
+    );
     ends.sort_by(f64::total_cmp);
     let mut found = Vec::new();
     for pair in ends.windows(2) {

@@ -38,8 +38,16 @@ fn the_corpus_keeps_its_quotas() {
         let trials = trials(kind);
         let spans: Vec<_> = trials.par_iter().map(|(_, trial)| trial.exact_span()).collect();
         let ahead = |enter: f64, exit: f64| exit > 0.0 && enter < exit;
-        let hits = spans.iter().flatten().filter(|(enter, exit)| ahead(enter.to_f64(), exit.to_f64())).count();
-        let inside = spans.iter().flatten().filter(|(enter, exit)| enter.to_f64() < 0.0 && exit.to_f64() > 0.0).count();
+        let hits = spans
+            .iter()
+            .flatten()
+            .filter(|(enter, exit)| ahead(enter.to_f64(), exit.to_f64()))
+            .count();
+        let inside = spans
+            .iter()
+            .flatten()
+            .filter(|(enter, exit)| enter.to_f64() < 0.0 && exit.to_f64() > 0.0)
+            .count();
         let mut classes = BTreeMap::new();
         for (class, _) in &trials {
             *classes.entry(*class).or_insert(0) += 1;
@@ -61,7 +69,14 @@ fn check(roundoff: f64, span: impl Fn(&Trial) -> (f64, f64) + Sync) {
             .max_by(|a, b| a.0.total_cmp(&b.0))
             .unwrap();
         println!("{name}: off by at most {} rounding errors, {:?}", worst.0, worst.1);
-        assert!(worst.0 <= ALLOWED, "{name}: off by {} rounding errors: {:?} {:?}, span {:?}", worst.0, worst.1, worst.2, span(worst.2));
+        assert!(
+            worst.0 <= ALLOWED,
+            "{name}: off by {} rounding errors: {:?} {:?}, span {:?}",
+            worst.0,
+            worst.1,
+            worst.2,
+            span(worst.2)
+        );
     }
 }
 

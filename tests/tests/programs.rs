@@ -102,7 +102,12 @@ fn cast(seed: u64) -> Outcome {
     let unexplained = disagreements(&exact, &computed)
         .into_iter()
         .find(|&(t, _)| t >= 0.0 && !near_a_surface(t))
-        .map(|(t, _)| format!("seed {seed}: at {t} of {origin} + t {direction}: exact {exact:?}, computed {computed:?}, {:?}", composed.nodes));
+        .map(|(t, _)| {
+            format!(
+                "seed {seed}: at {t} of {origin} + t {direction}: exact {exact:?}, computed {computed:?}, {:?}",
+                composed.nodes
+            )
+        });
     Outcome {
         crossings: crossings.len(),
         inside: starts_inside,
@@ -124,5 +129,8 @@ fn crossings_are_those_of_exact_arithmetic() {
         share(|outcome| outcome.inside),
         share(|outcome| outcome.crossings > 1),
     );
-    assert!(hits >= 30 && inside >= 10 && several >= 10, "the corpus lost its aim: {hits} % hit, {inside} % inside, {several} % cross more than once");
+    assert!(
+        hits >= 30 && inside >= 10 && several >= 10,
+        "the corpus lost its aim: {hits} % hit, {inside} % inside, {several} % cross more than once"
+    );
 }

@@ -1,6 +1,6 @@
 //! First hits, and rays that leave them.
 
-use super::program::{Csg, Node};
+use super::program::Csg;
 use super::sight::Sight;
 use super::start::{Departure, Start};
 use crate::leaf::{Ground, Solid};
@@ -35,38 +35,19 @@ impl<L: Solid, S: AsRef<[Span<f32>]>, R: Start> Sight<'_, L, S, R> {
     pub fn cast(&self) -> Option<Hit> {
         let ray = self.ray();
         let start = ray.to_line(ray.range().start);
-        let (crossing, t) = self.next_beyond(start)?;
-        let (solid, pose) = self.leaf(crossing.leaf)?;
-        let span = self.spans.as_ref().get(crossing.leaf as usize)?;
-
-        let world = ray.line(0.0);
-        let line = pose.map_or(world, |pose| pose.line_to_local(&world));
-        let seen = self.start.seen(crossing.leaf, solid, &line, pose);
-        let surface = solid.surface(&seen, &line.toward, t);
-        let outward = pose.map_or(surface.normal, |pose| pose.normal_to_world(surface.normal));
-        // Where the leaf is complemented the solid lies on the other side of its surface.
-        let complemented = (span.enter == t) != crossing.entering;
-        let point = ray.at(crossing.t);
+        let found = self.march_from(start)?;
+        let line = ray.line(0.0);
+        let met = self.program.surface_at(&line, self.start.footing(), self.spans.as_ref(), found);
+        let t = ray.from_line(found);
+        let point = ray.at(t);
         Some(Hit {
-            t: crossing.t,
+            t,
             point,
-            normal: (if complemented { -outward } else { outward }).into(),
-            leaf: crossing.leaf,
-            face: face_number(surface.face),
-            entering: crossing.entering,
+            normal: met.surface.normal.into(),
+            leaf: met.leaf.to_index(),
+            face: face_number(met.surface.face),
+            entering: met.entering,
             slack: (max_norm(ray.origin()) + max_norm(point)) * Ground::<f32>::ROUNDING,
-        })
-    }
-
-    fn leaf(&self, number: u32) -> Option<(&L, Option<&crate::transform::Transform>)> {
-        let mut left = number;
-        self.program.nodes.iter().find_map(|node| match node {
-            Node::Leaf { solid, frame } if left == 0 => Some((solid, self.program.pose(*frame))),
-            Node::Leaf { .. } => {
-                left -= 1;
-                None
-            }
-            _ => None,
         })
     }
 }

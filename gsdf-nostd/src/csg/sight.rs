@@ -2,11 +2,11 @@
 
 use super::check::ProgramError;
 use super::march::{March, march};
-use super::program::{Csg, Node, Program};
+use super::program::{Csg, Program};
 use super::start::Start;
 use super::sweep::attribute;
 use crate::leaf::Solid;
-use crate::ray::{Line, Ray};
+use crate::ray::Ray;
 use crate::real::Lane;
 use crate::span::Span;
 
@@ -44,7 +44,7 @@ impl<'a, L: Solid> Program<'a, L> {
         let length = scratch.len();
         match scratch.get_mut(..self.leaves()) {
             Some(spans) => {
-                self.fill(&start, spans);
+                self.spans_along(&start.ray().line(T::from(0.0)), start.footing(), spans);
                 Ok(Sight {
                     program: *self,
                     start,
@@ -52,28 +52,6 @@ impl<'a, L: Solid> Program<'a, L> {
                 })
             }
             None => Err(ProgramError::ScratchTooShort(length, self.leaves())),
-        }
-    }
-
-    /// Computes the span of every leaf. A ray is taken into a frame once per run of leaves in that frame.
-    #[inline(always)]
-    fn fill<T: Lane, R: Start>(&self, start: &R, spans: &mut [Span<T>]) {
-        let world: Line<T> = start.ray().line(T::from(0.0));
-        let mut frame = 0;
-        let mut local = world;
-        let solids = self.nodes.iter().filter_map(|node| match node {
-            Node::Leaf { solid, frame } => Some((solid, *frame)),
-            _ => None,
-        });
-        let mut number = 0;
-        for (span, (solid, own)) in spans.iter_mut().zip(solids) {
-            let pose = self.pose(own);
-            if own != frame {
-                frame = own;
-                local = pose.map_or(world, |pose| pose.line_to_local(&world));
-            }
-            *span = start.span(number, solid, &local, pose);
-            number += 1;
         }
     }
 }
@@ -90,7 +68,7 @@ impl<const N: usize, L: Solid> Csg<N, L> {
     pub fn along<R: Start>(&self, start: R) -> Sight<'_, L, [Span<f32>; N], R> {
         let mut spans = self.scratch();
         let program = self.program();
-        program.fill(&start, &mut spans);
+        program.spans_along(&start.ray().line(0.0), start.footing(), &mut spans);
         Sight { program, start, spans }
     }
 
@@ -145,25 +123,15 @@ impl<'a, L: Solid, S, R: Start> Sight<'a, L, S, R> {
         Crossings { sight: self, t }
     }
 
-    /// The next crossing beyond `t`, and its parameter on the ray's [line](Ray::line).
+    /// The next crossing beyond `t`, both on the ray's [line](Ray::line), if it lies within the ray's range.
     #[inline]
-    pub(super) fn next_beyond<T: Lane>(&self, t: T) -> Option<(Crossing<T>, T)>
+    pub(super) fn march_from<T: Lane>(&self, t: T) -> Option<T>
     where
         S: AsRef<[Span<T>]>,
     {
         let ray = self.ray();
-        let spans = self.spans.as_ref();
-        let found = march(self.program.nodes, spans, t);
-        let along = ray.from_line(found.t);
-        if !along.lt(T::from(ray.range().end)) {
-            return None;
-        }
-        let crossing = Crossing {
-            t: along,
-            leaf: attribute(self.program.nodes, spans, found.t).leaf.to_index(),
-            entering: !found.inside,
-        };
-        Some((crossing, found.t))
+        let found = march(self.program.nodes, self.spans.as_ref(), t).t;
+        ray.from_line(found).lt(T::from(ray.range().end)).then_some(found)
     }
 }
 
@@ -178,8 +146,12 @@ impl<L: Solid, T: Lane, S: AsRef<[Span<T>]>, R: Start> Iterator for Crossings<'_
     type Item = Crossing<T>;
 
     fn next(&mut self) -> Option<Crossing<T>> {
-        let (crossing, t) = self.sight.next_beyond(self.t)?;
-        self.t = t;
-        Some(crossing)
+        self.t = self.sight.march_from(self.t)?;
+        let made = attribute(self.sight.program.nodes, self.sight.spans.as_ref(), self.t);
+        Some(Crossing {
+            t: self.sight.ray().from_line(self.t),
+            leaf: made.leaf.to_index(),
+            entering: made.after,
+        })
     }
 }

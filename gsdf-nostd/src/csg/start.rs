@@ -10,93 +10,78 @@ use crate::transform::Transform;
 use core::ops::Range;
 use glam::Vec3;
 
+/// What is known of the place where a ray starts: how a leaf looks from there.
+pub trait Footing: Copy + sealed::Sealed {
+    /// Leaf number `number` as the line sees it from its origin; both are in the leaf's frame, which `pose` puts into the world.
+    fn seen<L: Solid, T: Real>(self, number: u32, solid: &L, line: &Line<T>, pose: Option<&Transform>) -> L::Seen<T>;
+
+    /// The span of the same leaf.
+    #[inline(always)]
+    fn span<L: Solid, T: Real>(self, number: u32, solid: &L, line: &Line<T>, pose: Option<&Transform>) -> Span<T> {
+        solid.span(&self.seen(number, solid, line, pose), &line.toward)
+    }
+}
+
 /// A start of a query: a [`Ray`], or a [`Departure`] from a hit.
 pub trait Start: sealed::Sealed {
+    /// What is known of the place.
+    type Footing: Footing;
+
     /// The ray to follow.
     fn ray(&self) -> &Ray;
 
-    /// The span of leaf number `number` along the ray, given in the leaf's frame with its pose.
-    #[doc(hidden)]
-    fn span<L: Solid, T: Real>(&self, number: u32, solid: &L, line: &Line<T>, pose: Option<&Transform>) -> Span<T>;
-
-    /// The leaf as the ray sees it from its start.
-    #[doc(hidden)]
-    fn seen<L: Solid, T: Real>(&self, number: u32, solid: &L, line: &Line<T>, pose: Option<&Transform>) -> L::Seen<T>;
+    /// What is known of the place.
+    fn footing(&self) -> Self::Footing;
 }
 
 mod sealed {
     pub trait Sealed {}
+    impl Sealed for super::Anywhere {}
+    impl Sealed for super::OnSurface {}
     impl Sealed for super::Ray {}
     impl Sealed for super::Departure {}
 }
 
+/// Nothing is known of the place.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Anywhere;
+
+impl Footing for Anywhere {
+    #[inline(always)]
+    fn seen<L: Solid, T: Real>(self, _: u32, solid: &L, line: &Line<T>, _: Option<&Transform>) -> L::Seen<T> {
+        solid.seen_from(line.origin)
+    }
+
+    #[inline(always)]
+    fn span<L: Solid, T: Real>(self, _: u32, solid: &L, line: &Line<T>, _: Option<&Transform>) -> Span<T> {
+        solid.span_along(line)
+    }
+}
+
 impl Start for Ray {
+    type Footing = Anywhere;
+
     fn ray(&self) -> &Ray {
         self
     }
 
-    #[inline(always)]
-    fn span<L: Solid, T: Real>(&self, _: u32, solid: &L, line: &Line<T>, _: Option<&Transform>) -> Span<T> {
-        solid.span_along(line)
-    }
-
-    #[inline(always)]
-    fn seen<L: Solid, T: Real>(&self, _: u32, solid: &L, line: &Line<T>, _: Option<&Transform>) -> L::Seen<T> {
-        solid.seen_from(line.origin)
+    fn footing(&self) -> Anywhere {
+        Anywhere
     }
 }
 
-/// A ray that leaves a surface: it knows the leaf and the face it starts on.
-///
-/// There its root is 0 exactly, so that a ray which leaves a solid does not meet it again at a distance of rounding errors, and one which enters it starts inside; no epsilon is asked of the
-/// caller. Leaves whose surfaces are as near as rounding can tell are treated alike.
+/// The place is on a face of a leaf.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Departure {
-    ray: Ray,
+pub struct OnSurface {
     leaf: u32,
     face: u8,
-    /// How far the start may be off its surface by rounding alone.
+    /// How far the place may be off its surface by rounding alone.
     slack: f32,
 }
 
-impl Departure {
-    /// The ray from `hit` along `direction`.
-    ///
-    /// # Errors
-    /// Where `direction` is not finite or zero, or the hit lies beyond ±2^30.
-    pub fn new(hit: &Hit, direction: Vec3) -> Result<Self, RayError> {
-        Ok(Self {
-            ray: Ray::new(hit.point, direction)?,
-            leaf: hit.leaf,
-            face: hit.face,
-            slack: hit.slack,
-        })
-    }
-
-    /// The same start over another range of the parameter.
-    ///
-    /// # Errors
-    /// Unless `0 <= range.start < range.end`.
-    pub fn within(self, range: Range<f32>) -> Result<Self, RayError> {
-        Ok(Self {
-            ray: self.ray.within(range)?,
-            ..self
-        })
-    }
-}
-
-impl Start for Departure {
-    fn ray(&self) -> &Ray {
-        &self.ray
-    }
-
+impl Footing for OnSurface {
     #[inline(always)]
-    fn span<L: Solid, T: Real>(&self, number: u32, solid: &L, line: &Line<T>, pose: Option<&Transform>) -> Span<T> {
-        solid.span(&self.seen(number, solid, line, pose), &line.toward)
-    }
-
-    #[inline(always)]
-    fn seen<L: Solid, T: Real>(&self, number: u32, solid: &L, line: &Line<T>, pose: Option<&Transform>) -> L::Seen<T> {
+    fn seen<L: Solid, T: Real>(self, number: u32, solid: &L, line: &Line<T>, pose: Option<&Transform>) -> L::Seen<T> {
         let like = line.toward.vv;
         // Into a frame the start takes the error of the pose's arithmetic along, all stretched by it.
         let (moved, per_stretch) = match pose {
@@ -109,5 +94,52 @@ impl Start for Departure {
             face: like.splat_like(face),
         };
         solid.grounded(solid.seen_from(line.origin), &ground)
+    }
+}
+
+/// A ray that leaves a surface: it knows the leaf and the face it starts on.
+///
+/// There its root is 0 exactly, so that a ray which leaves a solid does not meet it again at a distance of rounding errors, and one which enters it starts inside; no epsilon is asked of the
+/// caller. Leaves whose surfaces are as near as rounding can tell are treated alike.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Departure {
+    ray: Ray,
+    footing: OnSurface,
+}
+
+impl Departure {
+    /// The ray from `hit` along `direction`.
+    ///
+    /// # Errors
+    /// Where `direction` is not finite or zero, or the hit lies beyond ±2^30.
+    pub fn new(hit: &Hit, direction: Vec3) -> Result<Self, RayError> {
+        let footing = OnSurface {
+            leaf: hit.leaf,
+            face: hit.face,
+            slack: hit.slack,
+        };
+        let ray = Ray::new(hit.point, direction)?;
+        Ok(Self { ray, footing })
+    }
+
+    /// The same start over another range of the parameter.
+    ///
+    /// # Errors
+    /// Unless `0 <= range.start < range.end`.
+    pub fn within(self, range: Range<f32>) -> Result<Self, RayError> {
+        let ray = self.ray.within(range)?;
+        Ok(Self { ray, ..self })
+    }
+}
+
+impl Start for Departure {
+    type Footing = OnSurface;
+
+    fn ray(&self) -> &Ray {
+        &self.ray
+    }
+
+    fn footing(&self) -> OnSurface {
+        self.footing
     }
 }
