@@ -194,7 +194,7 @@ pub(crate) const fn ends(solid: &'static str, from: Vec3, to: Vec3, axis: Vec3) 
     let along = x * ax + y * ay + z * az;
     let (u, v, w) = (y * az - z * ay, z * ax - x * az, x * ay - y * ax);
     let off_squared = u * u + v * v + w * w;
-    let allowed = (along.abs() + larger(max_norm(from), max_norm(to)) as f64) / 262_144.0;
+    let allowed = (along.abs() + larger(max_norm(from), max_norm(to)) as f64) / 262_144.0_f64;
     if along <= 0.0 {
         Err(Invalid::new("distance between ends along the axis", along as f32, Fault::Reversed))
     } else if along < MIN_LENGTH as f64 {

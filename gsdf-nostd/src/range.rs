@@ -27,7 +27,7 @@ pub(crate) const PARALLEL_TILT_SQUARED: f32 = 1.0 / (1_u128 << 64) as f32;
 
 /// The power of two that brings a normal number's magnitude into [1, 2); multiplying by it is exact.
 pub(crate) const fn unit_scale(value: f32) -> f32 {
-    let exponent = (value.to_bits() >> 23) & 0xff;
+    let exponent = (value.to_bits() >> 23_u32) & 0xff;
     match exponent {
         // The inverse of 2^127 is below the normal numbers.
         254 => f32::from_bits(1 << 22),

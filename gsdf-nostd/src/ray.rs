@@ -131,12 +131,12 @@ impl Ray {
     }
 
     /// The parameter on [`line`](Self::line) that belongs to a parameter of this ray; exact unless it overflows.
-    pub(crate) fn to_line<T: Real>(&self, t: T) -> T {
+    pub(crate) fn parameter_on_line<T: Real>(self, t: T) -> T {
         t / t.splat_like(self.scale)
     }
 
     /// The parameter of this ray that belongs to a parameter on [`line`](Self::line); exact unless it overflows to infinity.
-    pub(crate) fn from_line<T: Real>(&self, t: T) -> T {
+    pub(crate) fn parameter_of<T: Real>(self, t: T) -> T {
         t * t.splat_like(self.scale)
     }
 }
@@ -185,7 +185,7 @@ mod tests {
     fn parameters_are_in_units_of_the_direction() {
         for length in [1e-37_f32, 0.3, 1.0, 7.0, 1e38] {
             let ray = Ray::new(Vec3::ZERO, vec3(0.0, length, 0.0)).unwrap();
-            assert_eq!(ray.from_line(ray.to_line(0.75_f32)), 0.75);
+            assert_eq!(ray.parameter_of(ray.parameter_on_line(0.75_f32)), 0.75);
         }
     }
 }

@@ -73,11 +73,11 @@ impl SphereTracer {
     /// [`cast`](Self::cast) in the arithmetic of `like`.
     pub fn cast_in<F: Field, T: Lane>(&self, field: &F, ray: &Ray, like: T) -> Traced<T> {
         let range = ray.range();
-        let start = ray.to_line(like.splat_like(range.start));
-        let end = ray.to_line(like.splat_like(range.end));
+        let start = ray.parameter_on_line(like.splat_like(range.start));
+        let end = ray.parameter_on_line(like.splat_like(range.end));
         let traced = self.trace(field, &ray.line(like), start, end);
         Traced {
-            t: ray.from_line(traced.t),
+            t: ray.parameter_of(traced.t),
             ..traced
         }
     }

@@ -67,7 +67,7 @@ impl Transform {
         let rows = [cross(m[1], m[2]), cross(m[2], m[0]), cross(m[0], m[1])];
         let determinant = dot(m[0], rows[0]);
         let singular = Err(Invalid::new("matrix", determinant as f32, Fault::Singular));
-        if determinant == 0.0 {
+        if determinant == 0.0_f64 {
             return singular;
         }
         let to_local = [
@@ -77,7 +77,7 @@ impl Transform {
         ];
         let inverse_stretch = spectral_norm([wide(to_local[0]), wide(to_local[1]), wide(to_local[2])]);
         // A little more than 2^10, so that rounding does not refuse an exact 2^10.
-        let most = MAX_STRETCH as f64 * 1.001;
+        let most = MAX_STRETCH as f64 * 1.001_f64;
         if !(inverse_stretch <= most && spectral_norm(m) <= most) {
             return singular;
         }
@@ -169,18 +169,18 @@ const fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
 /// Gershgorin's bound on the largest eigenvalue of `G = M Mᵀ`, taken on `G^64` to bring the factor 3 by which it may exceed down to `3^(1/64)`, and its square root.
 const fn spectral_norm(rows: [[f64; 3]; 3]) -> f64 {
     const SQUARINGS: u32 = 6;
-    let mut g = [[0.0; 3]; 3];
+    let mut g = [[0.0_f64; 3]; 3];
     let mut i = 0;
     while i < 9 {
         g[i / 3][i % 3] = dot(rows[i / 3], rows[i % 3]);
         i += 1;
     }
     // `scale` collects what was divided out, at the power the current `g` has.
-    let mut scale = 1.0;
+    let mut scale = 1.0_f64;
     let mut round = 0;
     while round < SQUARINGS {
         let trace = g[0][0] + g[1][1] + g[2][2];
-        let mut square = [[0.0; 3]; 3];
+        let mut square = [[0.0_f64; 3]; 3];
         let mut i = 0;
         while i < 9 {
             // `g` is symmetric: a row is a column.
@@ -192,7 +192,7 @@ const fn spectral_norm(rows: [[f64; 3]; 3]) -> f64 {
         scale *= root(trace, round);
         round += 1;
     }
-    let mut bound = 0.0;
+    let mut bound = 0.0_f64;
     let mut i = 0;
     while i < 3 {
         let sum = g[i][0].abs() + g[i][1].abs() + g[i][2].abs();
@@ -217,13 +217,13 @@ const fn root(value: f64, times: u32) -> f64 {
 
 /// The square root of a positive number in `const`, where neither `std` nor `libm` has one: Newton's iteration from a guess that halves the exponent.
 const fn sqrt(value: f64) -> f64 {
-    if value <= 0.0 {
-        return 0.0;
+    if value <= 0.0_f64 {
+        return 0.0_f64;
     }
     let mut guess = f64::from_bits((value.to_bits() >> 1) + (1023 << 51));
-    let mut i = 0;
+    let mut i = 0_u32;
     while i < 6 {
-        guess = 0.5 * (guess + value / guess);
+        guess = 0.5_f64 * (guess + value / guess);
         i += 1;
     }
     guess

@@ -34,11 +34,11 @@ impl<L: Solid, S: AsRef<[Span<f32>]>, R: Start> Sight<'_, L, S, R> {
     #[must_use]
     pub fn cast(&self) -> Option<Hit> {
         let ray = self.ray();
-        let start = ray.to_line(ray.range().start);
+        let start = ray.parameter_on_line(ray.range().start);
         let found = self.march_from(start)?;
         let line = ray.line(0.0);
         let met = self.program.surface_at(&line, self.start.footing(), self.spans.as_ref(), found);
-        let t = ray.from_line(found);
+        let t = ray.parameter_of(found);
         let point = ray.at(t);
         Some(Hit {
             t,
@@ -82,7 +82,7 @@ impl<const N: usize, L: Solid> Csg<N, L> {
         Ok(self.along(Departure::new(hit, direction)?).cast())
     }
 
-    /// The generalized signed distance function φ_G(v, p): how far from `p` along `v` to the next crossing of the boundary, positive outside, negative inside, infinite where
+    /// The generalized signed distance function `φ_G(v, p)`: how far from `p` along `v` to the next crossing of the boundary, positive outside, negative inside, infinite where
     /// there is none; NaN unless the two make a [`Ray`]. Exact: the march, not one evaluation of minima and maxima, which is only a bound.
     ///
     /// In units of the length of `v`: a distance where `v` is of unit length.

@@ -75,9 +75,9 @@ impl<const N: usize, L: Copy> Draft<N, L> {
     pub const fn posed(self, frame: u16) -> Self {
         let mut draft = self;
         // Walks back over the last operand: an operator asks for what precedes it, a leaf gives.
-        let mut wanted = 1;
+        let mut wanted = 1_u32;
         let mut index = draft.length;
-        while wanted > 0 && index > 0 && index <= N {
+        while wanted > 0_u32 && index > 0 && index <= N {
             index -= 1;
             match draft.nodes[index] {
                 Node::Leaf { solid, frame: 0 } => {

@@ -50,7 +50,7 @@ impl<L: Solid> Program<'_, L> {
         fold(self.nodes, Signed(p.x), &mut reading).0
     }
 
-    /// The standard signed distance function φ(p), negative inside; NaN unless `p` is finite and within ±2^30. See [`distance`](Self::distance) for what the magnitude is.
+    /// The standard signed distance function `φ(p)`, negative inside; NaN unless `p` is finite and within ±2^30. See [`distance`](Self::distance) for what the magnitude is.
     #[must_use]
     pub fn sdf(&self, p: Vec3) -> f32 {
         if is_in_range(p) { self.distance(V3::from(p)) } else { f32::NAN }
@@ -64,7 +64,7 @@ impl<L: Solid> Program<'_, L> {
 }
 
 impl<const N: usize, L: Solid> Csg<N, L> {
-    /// The standard signed distance function φ(p), negative inside; NaN unless `p` is finite and within ±2^30. See [`Program::distance`] for what the magnitude is.
+    /// The standard signed distance function `φ(p)`, negative inside; NaN unless `p` is finite and within ±2^30. See [`Program::distance`] for what the magnitude is.
     #[must_use]
     pub fn sdf(&self, p: Vec3) -> f32 {
         self.program().sdf(p)

@@ -92,15 +92,15 @@ impl<'a, L: Solid, S, R: Start> Sight<'a, L, S, R> {
         S: AsRef<[Span<T>]>,
     {
         let ray = self.ray();
-        let start = ray.to_line(T::from(ray.range().start));
+        let start = ray.parameter_on_line(T::from(ray.range().start));
         let found = march(self.program.nodes, self.spans.as_ref(), start);
         March {
-            t: ray.from_line(found.t),
+            t: ray.parameter_of(found.t),
             ..found
         }
     }
 
-    /// The generalized signed distance function φ_G: the distance to the next crossing, positive outside, negative inside, infinite where there is none; in units of
+    /// The generalized signed distance function `φ_G`: the distance to the next crossing, positive outside, negative inside, infinite where there is none; in units of
     /// the direction's length, measured from the ray's origin.
     #[must_use]
     pub fn gsdf<T: Lane>(&self) -> T
@@ -119,7 +119,7 @@ impl<'a, L: Solid, S, R: Start> Sight<'a, L, S, R> {
         S: AsRef<[Span<T>]>,
     {
         let ray = self.ray();
-        let t = ray.to_line(T::from(ray.range().start));
+        let t = ray.parameter_on_line(T::from(ray.range().start));
         Crossings { sight: self, t }
     }
 
@@ -131,7 +131,7 @@ impl<'a, L: Solid, S, R: Start> Sight<'a, L, S, R> {
     {
         let ray = self.ray();
         let found = march(self.program.nodes, self.spans.as_ref(), t).t;
-        ray.from_line(found).lt(T::from(ray.range().end)).then_some(found)
+        ray.parameter_of(found).lt(T::from(ray.range().end)).then_some(found)
     }
 }
 
@@ -149,7 +149,7 @@ impl<L: Solid, T: Lane, S: AsRef<[Span<T>]>, R: Start> Iterator for Crossings<'_
         self.t = self.sight.march_from(self.t)?;
         let made = attribute(self.sight.program.nodes, self.sight.spans.as_ref(), self.t);
         Some(Crossing {
-            t: self.sight.ray().from_line(self.t),
+            t: self.sight.ray().parameter_of(self.t),
             leaf: made.leaf.to_index(),
             entering: made.after,
         })

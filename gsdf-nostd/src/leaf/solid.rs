@@ -52,20 +52,20 @@ pub trait Solid: Copy {
         self.span(&self.seen_from(line.origin), &line.toward)
     }
 
-    /// The standard signed distance function φ(p): how far from `p` to the nearest point of the surface, negative inside; NaN unless `p` is finite and within ±2^30.
+    /// The standard signed distance function `φ(p)`: how far from `p` to the nearest point of the surface, negative inside; NaN unless `p` is finite and within ±2^30.
     #[must_use]
     fn sdf(&self, p: Vec3) -> f32 {
         if is_in_range(p) { self.distance(V3::from(p)) } else { f32::NAN }
     }
 
-    /// The generalized signed distance function φ_G(v, p): how far from `p` along `v` to the next crossing of the surface, positive outside, negative inside,
+    /// The generalized signed distance function `φ_G(v, p)`: how far from `p` along `v` to the next crossing of the surface, positive outside, negative inside,
     /// infinite where there is none; NaN unless the two make a [`Ray`].
     ///
     /// In units of the length of `v`: a distance where `v` is of unit length.
     #[must_use]
     fn gsdf(&self, p: Vec3, v: Vec3) -> f32 {
         match Ray::new(p, v) {
-            Ok(ray) => ray.from_line(self.span_along(&ray.line(0.0_f32)).signed_crossing(0.0)),
+            Ok(ray) => ray.parameter_of(self.span_along(&ray.line(0.0_f32)).signed_crossing(0.0)),
             Err(_) => f32::NAN,
         }
     }
