@@ -84,7 +84,7 @@ mod vec3;
 pub use camera::{Camera, Projection, Raster};
 pub use csg::{
     Anywhere, Attribution, Crossing, Crossings, Csg, Departure, Draft, Encounter, Footing, Hit, March, Node, OnSurface, Program,
-    ProgramError, Sight, Start, attribute, march, sweep,
+    ProgramError, SeenFrom, Sight, Start, attribute, march, sweep,
 };
 pub use invalid::{Fault, Invalid};
 pub use leaf::{

@@ -48,6 +48,9 @@ impl Mask for bool {
 pub trait Real: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self> + Neg<Output = Self> {
     /// The result of comparing two values.
     type Mask: Mask;
+    /// How many numbers a value holds.
+    const LANES: usize;
+
     /// The arithmetic of one lane: `f32` for `f32` and its packets, `f64` for `f64`.
     type Scalar: Lane;
 
@@ -112,6 +115,7 @@ pub trait Lane: Real<Scalar = Self, Mask = bool> + PartialOrd + From<f32> {
 macro_rules! real_scalar {
     ($float:ty, $sqrt:path) => {
         impl Real for $float {
+            const LANES: usize = 1;
             type Mask = bool;
             type Scalar = $float;
 

@@ -60,12 +60,23 @@ fn check(scene: &Scene, hits: usize) {
     let single = mask(scene, 0.0_f32);
     let double = mask(scene, 0.0_f64);
     let differing: Vec<_> = (0..single.len()).filter(|&pixel| single[pixel] != double[pixel]).collect();
-    println!("{}: {} hits, {} in double precision, {} pixels differ", scene.name, count(&single), count(&double), differing.len());
+    println!(
+        "{}: {} hits, {} in double precision, {} pixels differ",
+        scene.name,
+        count(&single),
+        count(&double),
+        differing.len()
+    );
     assert!(differing.len() <= ALLOWED, "{}: {} pixels differ", scene.name, differing.len());
     for &pixel in &differing {
         assert!(is_on_rim(&double, pixel), "{}: pixel {pixel} differs away from any rim", scene.name);
     }
-    assert!(count(&double).abs_diff(hits) <= 12, "{}: {} hits, not about {hits}", scene.name, count(&double));
+    assert!(
+        count(&double).abs_diff(hits) <= 12,
+        "{}: {} hits, not about {hits}",
+        scene.name,
+        count(&double)
+    );
 }
 
 #[test]

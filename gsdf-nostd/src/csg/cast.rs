@@ -1,5 +1,6 @@
 //! First hits, and rays that leave them.
 
+use super::lanes::Encounter;
 use super::program::Csg;
 use super::sight::Sight;
 use super::start::{Departure, Start};
@@ -36,11 +37,18 @@ impl<L: Solid, S: AsRef<[Span<f32>]>, R: Start> Sight<'_, L, S, R> {
         let ray = self.ray();
         let start = ray.parameter_on_line(ray.range().start);
         let found = self.march_from(start)?;
-        let line = ray.line(0.0);
-        let met = self.program.surface_at(&line, self.start.footing(), self.spans.as_ref(), found);
+        let met = self.start.surface(&self.program, self.spans.as_ref(), found);
         let t = ray.parameter_of(found);
+        Some(Hit::new(ray, t, &met))
+    }
+}
+
+impl Hit {
+    /// What a ray meets at its parameter `t`: for evaluators of one's own, such as packets.
+    #[must_use]
+    pub fn new(ray: &Ray, t: f32, met: &Encounter<f32>) -> Self {
         let point = ray.at(t);
-        Some(Hit {
+        Self {
             t,
             point,
             normal: met.surface.normal.into(),
@@ -48,7 +56,7 @@ impl<L: Solid, S: AsRef<[Span<f32>]>, R: Start> Sight<'_, L, S, R> {
             face: face_number(met.surface.face),
             entering: met.entering,
             slack: (max_norm(ray.origin()) + max_norm(point)) * Ground::<f32>::ROUNDING,
-        })
+        }
     }
 }
 

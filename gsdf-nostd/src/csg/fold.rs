@@ -6,6 +6,8 @@ use crate::real::Real;
 
 /// What the operators of a program act on.
 pub(super) trait Operand: Copy {
+    /// How many lanes an operand has.
+    const LANES: usize;
     fn union(self, other: Self) -> Self;
     fn intersection(self, other: Self) -> Self;
     fn complement(self) -> Self;
@@ -16,6 +18,7 @@ pub(super) trait Operand: Copy {
 pub(super) struct Signed<T>(pub(super) T);
 
 impl<T: Real> Operand for Signed<T> {
+    const LANES: usize = T::LANES;
     #[inline(always)]
     fn union(self, other: Self) -> Self {
         Self(self.0.min(other.0))
@@ -38,19 +41,31 @@ pub(super) trait Reading<L> {
 }
 
 /// Evaluates a checked program; `filler` is any operand.
-///
-/// Indices into the stack wrap at the depth which every checked program stays within, so that no access needs a check and none can panic.
 #[inline(always)]
 pub(super) fn fold<L, R: Reading<L>>(nodes: &[Node<L>], filler: R::Operand, reading: &mut R) -> R::Operand {
-    const WRAP: usize = MAX_DEPTH - 1;
-    let mut stack = [filler; MAX_DEPTH];
-    let mut top = WRAP;
+    // Packets are wide, and filling a deep stack of them costs more than a small program. A program of 15 nodes has at most 8 leaves.
+    if R::Operand::LANES > 1 && nodes.len() < 16 {
+        fold_within::<8, L, R>(nodes, filler, reading)
+    } else {
+        fold_within::<MAX_DEPTH, L, R>(nodes, filler, reading)
+    }
+}
+
+/// Evaluates a program that never has more than `DEPTH` operands waiting.
+///
+/// Indices into the stack wrap there, so that no access needs a check and none can panic.
+#[inline(always)]
+fn fold_within<const DEPTH: usize, L, R: Reading<L>>(nodes: &[Node<L>], filler: R::Operand, reading: &mut R) -> R::Operand {
+    const { assert!(DEPTH.is_power_of_two()) };
+    let wrap = DEPTH - 1;
+    let mut stack = [filler; DEPTH];
+    let mut top = wrap;
     for node in nodes {
-        let last = stack[top & WRAP];
-        let below = top.wrapping_sub(1) & WRAP;
+        let last = stack[top & wrap];
+        let below = top.wrapping_sub(1) & wrap;
         match node {
             Node::Leaf { solid, frame } => {
-                top = top.wrapping_add(1) & WRAP;
+                top = top.wrapping_add(1) & wrap;
                 stack[top] = reading.leaf(solid, *frame);
             }
             Node::Union => {
@@ -65,8 +80,8 @@ pub(super) fn fold<L, R: Reading<L>>(nodes: &[Node<L>], filler: R::Operand, read
                 stack[below] = stack[below].intersection(last.complement());
                 top = below;
             }
-            Node::Complement => stack[top & WRAP] = last.complement(),
+            Node::Complement => stack[top & wrap] = last.complement(),
         }
     }
-    stack[top & WRAP]
+    stack[top & wrap]
 }

@@ -5,7 +5,7 @@ use super::start::Footing;
 use super::sweep::{Attribution, attribute};
 use crate::leaf::{Solid, Surface};
 use crate::ray::Line;
-use crate::real::{Mask, Real};
+use crate::real::{Lane, Mask, Real};
 use crate::span::Span;
 use crate::transform::Transform;
 use crate::vec3::V3;
@@ -43,9 +43,20 @@ impl<T: Real> Framed<T> {
 }
 
 impl<L: Solid> Program<'_, L> {
+    /// All leaves as seen from one origin in the world, for the lines of a pinhole camera; `seen` should hold one per leaf. To be used as [`SeenFrom`](super::SeenFrom).
+    pub fn see_from<S: Lane>(&self, origin: V3<S>, seen: &mut [L::Seen<S>]) {
+        let mut seen = seen.iter_mut();
+        for node in self.nodes {
+            let Node::Leaf { solid, frame } = node else { continue };
+            let Some(seen) = seen.next() else { break };
+            let local = self.pose(*frame).map_or(origin, |pose| pose.point_to_local(origin));
+            *seen = solid.seen_from(local);
+        }
+    }
+
     /// First stage: the span of every leaf along a line in the world, into `spans`, which should hold one per leaf.
     #[inline(always)]
-    pub fn spans_along<T: Real, F: Footing>(&self, line: &Line<T>, footing: F, spans: &mut [Span<T>]) {
+    pub fn spans_along<T: Real, F: Footing<L, T>>(&self, line: &Line<T>, footing: F, spans: &mut [Span<T>]) {
         let mut framed = Framed::new(line);
         let mut spans = spans.iter_mut();
         let mut number = 0;
@@ -62,7 +73,7 @@ impl<L: Solid> Program<'_, L> {
     ///
     /// Lanes without a crossing get the reversed direction for a normal, and leaf +inf.
     #[inline(always)]
-    pub fn surface_at<T: Real, F: Footing>(&self, line: &Line<T>, footing: F, spans: &[Span<T>], t: T) -> Encounter<T> {
+    pub fn surface_at<T: Real, F: Footing<L, T>>(&self, line: &Line<T>, footing: F, spans: &[Span<T>], t: T) -> Encounter<T> {
         let Attribution { after, leaf, .. } = attribute(self.nodes, spans, t);
         let mut surface = Surface {
             normal: -line.toward.v,

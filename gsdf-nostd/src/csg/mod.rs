@@ -20,5 +20,5 @@ pub use lanes::Encounter;
 pub use march::{March, march};
 pub use program::{Csg, Node, Program};
 pub use sight::{Crossing, Crossings, Sight};
-pub use start::{Anywhere, Departure, Footing, OnSurface, Start};
+pub use start::{Anywhere, Departure, Footing, OnSurface, SeenFrom, Start};
 pub use sweep::{Attribution, attribute, sweep};

@@ -44,7 +44,7 @@ impl<'a, L: Solid> Program<'a, L> {
         let length = scratch.len();
         match scratch.get_mut(..self.leaves()) {
             Some(spans) => {
-                self.spans_along(&start.ray().line(T::from(0.0)), start.footing(), spans);
+                start.spans(self, spans);
                 Ok(Sight {
                     program: *self,
                     start,
@@ -68,7 +68,7 @@ impl<const N: usize, L: Solid> Csg<N, L> {
     pub fn along<R: Start>(&self, start: R) -> Sight<'_, L, [Span<f32>; N], R> {
         let mut spans = self.scratch();
         let program = self.program();
-        program.spans_along(&start.ray().line(0.0), start.footing(), &mut spans);
+        start.spans(&program, &mut spans);
         Sight { program, start, spans }
     }
 

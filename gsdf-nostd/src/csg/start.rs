@@ -1,72 +1,64 @@
 //! Where a query starts: anywhere, or on a surface that an earlier one has hit.
 
 use super::cast::Hit;
+use super::lanes::Encounter;
+use super::program::Program;
 use crate::leaf::{Ground, Solid};
 use crate::range::max_norm;
 use crate::ray::{Line, Ray, RayError};
-use crate::real::Real;
+use crate::real::{Lane, Real};
 use crate::span::Span;
 use crate::transform::Transform;
 use core::ops::Range;
 use glam::Vec3;
 
-/// What is known of the place where a ray starts: how a leaf looks from there.
-pub trait Footing: Copy + sealed::Sealed {
+/// What is known of the place where a line starts: how the leaves look from there.
+pub trait Footing<L: Solid, T: Real>: Copy {
     /// Leaf number `number` as the line sees it from its origin; both are in the leaf's frame, which `pose` puts into the world.
-    fn seen<L: Solid, T: Real>(self, number: u32, solid: &L, line: &Line<T>, pose: Option<&Transform>) -> L::Seen<T>;
+    fn seen(self, number: u32, solid: &L, line: &Line<T>, pose: Option<&Transform>) -> L::Seen<T>;
 
     /// The span of the same leaf.
     #[inline(always)]
-    fn span<L: Solid, T: Real>(self, number: u32, solid: &L, line: &Line<T>, pose: Option<&Transform>) -> Span<T> {
+    fn span(self, number: u32, solid: &L, line: &Line<T>, pose: Option<&Transform>) -> Span<T> {
         solid.span(&self.seen(number, solid, line, pose), &line.toward)
     }
-}
-
-/// A start of a query: a [`Ray`], or a [`Departure`] from a hit.
-pub trait Start: sealed::Sealed {
-    /// What is known of the place.
-    type Footing: Footing;
-
-    /// The ray to follow.
-    fn ray(&self) -> &Ray;
-
-    /// What is known of the place.
-    fn footing(&self) -> Self::Footing;
-}
-
-mod sealed {
-    pub trait Sealed {}
-    impl Sealed for super::Anywhere {}
-    impl Sealed for super::OnSurface {}
-    impl Sealed for super::Ray {}
-    impl Sealed for super::Departure {}
 }
 
 /// Nothing is known of the place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Anywhere;
 
-impl Footing for Anywhere {
+impl<L: Solid, T: Real> Footing<L, T> for Anywhere {
     #[inline(always)]
-    fn seen<L: Solid, T: Real>(self, _: u32, solid: &L, line: &Line<T>, _: Option<&Transform>) -> L::Seen<T> {
+    fn seen(self, _: u32, solid: &L, line: &Line<T>, _: Option<&Transform>) -> L::Seen<T> {
         solid.seen_from(line.origin)
     }
 
     #[inline(always)]
-    fn span<L: Solid, T: Real>(self, _: u32, solid: &L, line: &Line<T>, _: Option<&Transform>) -> Span<T> {
+    fn span(self, _: u32, solid: &L, line: &Line<T>, _: Option<&Transform>) -> Span<T> {
         solid.span_along(line)
     }
 }
 
-impl Start for Ray {
-    type Footing = Anywhere;
+/// The place is the one from which [`Program::see_from`] has seen all leaves: what depends on the origin alone is done.
+#[derive(Debug)]
+pub struct SeenFrom<'s, S>(pub &'s [S]);
 
-    fn ray(&self) -> &Ray {
-        self
+impl<S> Clone for SeenFrom<'_, S> {
+    fn clone(&self) -> Self {
+        *self
     }
+}
 
-    fn footing(&self) -> Anywhere {
-        Anywhere
+impl<S> Copy for SeenFrom<'_, S> {}
+
+impl<L: Solid, T: Real> Footing<L, T> for SeenFrom<'_, L::Seen<T::Scalar>> {
+    #[inline(always)]
+    fn seen(self, number: u32, solid: &L, line: &Line<T>, _: Option<&Transform>) -> L::Seen<T> {
+        match self.0.get(number as usize) {
+            Some(seen) => L::lift(seen, line.toward.vv),
+            None => solid.seen_from(line.origin),
+        }
     }
 }
 
@@ -79,9 +71,9 @@ pub struct OnSurface {
     slack: f32,
 }
 
-impl Footing for OnSurface {
+impl<L: Solid, T: Real> Footing<L, T> for OnSurface {
     #[inline(always)]
-    fn seen<L: Solid, T: Real>(self, number: u32, solid: &L, line: &Line<T>, pose: Option<&Transform>) -> L::Seen<T> {
+    fn seen(self, number: u32, solid: &L, line: &Line<T>, pose: Option<&Transform>) -> L::Seen<T> {
         let like = line.toward.vv;
         // Into a frame the start takes the error of the pose's arithmetic along, all stretched by it.
         let (moved, per_stretch) = match pose {
@@ -94,6 +86,40 @@ impl Footing for OnSurface {
             face: like.splat_like(face),
         };
         solid.grounded(solid.seen_from(line.origin), &ground)
+    }
+}
+
+/// A start of a query: a [`Ray`], or a [`Departure`] from a hit.
+pub trait Start: sealed::Sealed {
+    /// The ray to follow.
+    fn ray(&self) -> &Ray;
+
+    /// The spans of all leaves.
+    #[doc(hidden)]
+    fn spans<L: Solid, T: Lane>(&self, program: &Program<'_, L>, spans: &mut [Span<T>]);
+
+    /// The surface at a crossing.
+    #[doc(hidden)]
+    fn surface<L: Solid, T: Lane>(&self, program: &Program<'_, L>, spans: &[Span<T>], t: T) -> Encounter<T>;
+}
+
+mod sealed {
+    pub trait Sealed {}
+    impl Sealed for super::Ray {}
+    impl Sealed for super::Departure {}
+}
+
+impl Start for Ray {
+    fn ray(&self) -> &Ray {
+        self
+    }
+
+    fn spans<L: Solid, T: Lane>(&self, program: &Program<'_, L>, spans: &mut [Span<T>]) {
+        program.spans_along(&self.line(T::from(0.0)), Anywhere, spans);
+    }
+
+    fn surface<L: Solid, T: Lane>(&self, program: &Program<'_, L>, spans: &[Span<T>], t: T) -> Encounter<T> {
+        program.surface_at(&self.line(t), Anywhere, spans, t)
     }
 }
 
@@ -133,13 +159,15 @@ impl Departure {
 }
 
 impl Start for Departure {
-    type Footing = OnSurface;
-
     fn ray(&self) -> &Ray {
         &self.ray
     }
 
-    fn footing(&self) -> OnSurface {
-        self.footing
+    fn spans<L: Solid, T: Lane>(&self, program: &Program<'_, L>, spans: &mut [Span<T>]) {
+        program.spans_along(&self.ray.line(T::from(0.0)), self.footing, spans);
+    }
+
+    fn surface<L: Solid, T: Lane>(&self, program: &Program<'_, L>, spans: &[Span<T>], t: T) -> Encounter<T> {
+        program.surface_at(&self.ray.line(t), self.footing, spans, t)
     }
 }
