@@ -50,7 +50,17 @@ impl Camera {
     fn new(eye: Vec3, target: Vec3, up: Vec3, half_height: f32, projection: Projection) -> Result<Self, Invalid> {
         let sight = point("camera target", target)? - point("camera eye", eye)?;
         let forward = unit_or("distance from camera eye to target", sight)?;
-        let right = unit_or("camera up across the line of sight", point("camera up", up)?.cross(forward))?;
+        let up = unit_or("camera up", point("camera up", up)?)?;
+        // Below this the part of `up` across the line of sight is rounding errors.
+        let across = up.cross(forward);
+        if max_norm(across) < PARALLEL {
+            return Err(Invalid::new(
+                "camera up across the line of sight",
+                max_norm(across),
+                Fault::Degenerate,
+            ));
+        }
+        let right = unit_or("camera up", across)?;
         Ok(Self {
             eye,
             right,
@@ -89,6 +99,9 @@ impl Camera {
         }
     }
 }
+
+/// The sine of the least angle that must be between a camera's `up` and its line of sight: 2^-16.
+const PARALLEL: f32 = 1.0 / 65_536.0;
 
 fn unit_or(parameter: &'static str, vector: Vec3) -> Result<Vec3, Invalid> {
     let largest = max_norm(vector);
@@ -129,7 +142,7 @@ impl Raster {
     /// The ray through the centre of pixel (`x`, `y`).
     ///
     /// # Errors
-    /// Never for pixels of the raster; where the numbers leave the range of rays otherwise.
+    /// For orthographic cameras whose picture reaches beyond ±2^30, where it does.
     pub fn ray(&self, x: u32, y: u32) -> Result<Ray, RayError> {
         #[allow(clippy::cast_precision_loss, reason = "pictures are narrower than 2^24 pixels")]
         self.ray_through(x as f32 + 0.5, y as f32 + 0.5)
@@ -188,6 +201,8 @@ mod tests {
         assert!(Camera::pinhole(eye, eye, Vec3::Y, 0.5).is_err());
         assert!(Camera::pinhole(eye, target, Vec3::ZERO, 0.5).is_err());
         assert!(Camera::pinhole(Vec3::Y, target, Vec3::Y, 0.5).is_err());
+        let oblique = vec3(-10.0, -10.0, -9.0);
+        assert!(Camera::pinhole(oblique, target, oblique, 0.5).is_err());
         assert!(Camera::pinhole(eye, target, Vec3::Y, -0.5).is_err());
         assert!(Camera::pinhole(eye, target, Vec3::Y, f32::NAN).is_err());
         assert!(Camera::orthographic(eye, vec3(f32::NAN, 0.0, 0.0), Vec3::Y, 0.5).is_err());

@@ -177,11 +177,11 @@ pub(crate) const fn unit(parameter: &'static str, value: Vec3) -> Result<Vec3, I
     }
 }
 
-/// Whether `axis` is a unit vector that leads from one point to another, at least [`MIN_LENGTH`] apart.
+/// Whether `axis` is a unit vector that leads from one point to another, at least [`MIN_LENGTH`] apart; `names` are those of the three.
 ///
 /// The second may lie off the axis through the first by 2^-18 of their distance and of their coordinates: what rounding an oblique axis does, and no more.
-pub(crate) const fn ends(solid: &'static str, from: Vec3, to: Vec3, axis: Vec3) -> Result<(), Invalid> {
-    match (point(solid, from), point(solid, to), unit("axis", axis)) {
+pub(crate) const fn ends(names: [&'static str; 3], from: Vec3, to: Vec3, axis: Vec3) -> Result<(), Invalid> {
+    match (point(names[0], from), point(names[1], to), unit(names[2], axis)) {
         (Ok(_), Ok(_), Ok(_)) => {}
         (Err(error), _, _) | (_, Err(error), _) | (_, _, Err(error)) => return Err(error),
     }
@@ -210,10 +210,13 @@ pub(crate) const fn ends(solid: &'static str, from: Vec3, to: Vec3, axis: Vec3) 
     }
 }
 
-/// The unit vector from one point towards another, exact where they differ in one coordinate; not a unit vector where they coincide or are not finite.
-pub(crate) fn axis_between(from: Vec3, to: Vec3) -> Vec3 {
-    let difference = to - from;
+/// The unit vector from one point towards another, exact where they differ in one coordinate.
+pub(crate) fn axis_between(names: [&'static str; 3], from: Vec3, to: Vec3) -> Result<Vec3, Invalid> {
+    let difference = point(names[1], to)? - point(names[0], from)?;
+    if max_norm(difference) < MIN_LENGTH {
+        return Err(Invalid::new("distance between ends", max_norm(difference), Fault::Degenerate));
+    }
     // An exact power of two keeps the squares in range.
     let scaled = difference * unit_scale(max_norm(difference));
-    scaled / libm::sqrtf(scaled.dot(scaled))
+    Ok(scaled / libm::sqrtf(scaled.dot(scaled)))
 }

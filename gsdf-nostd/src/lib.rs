@@ -50,7 +50,7 @@
 //! ray.
 //!
 //! # Range
-//! Coordinates and sizes up to 2<sup>30</sup>, sizes from 2<sup>-20</sup>, transforms that stretch by at most 2<sup>10</sup>; directions of any length. What lies outside is refused with an error that says so, at compile time where a scene is `const`.
+//! Coordinates and sizes up to 2<sup>30</sup>, sizes from 2<sup>-20</sup>, transforms that stretch by at most 2<sup>10</sup>; directions from 2<sup>-40</sup> to 2<sup>40</sup>. What lies outside is refused with an error that says so, at compile time where a scene is `const`.
 //!
 //! # Paying for what you use
 //! A program links the formulas of its leaf type's solids and no others: [`leaf_set!`] makes a leaf type of the ones a scene needs, your own among them ([`Solid`]). No function in this crate
@@ -91,7 +91,7 @@ pub use leaf::{
     Bounds, CappedCone, CappedCylinder, Capsule, Cone, Cuboid, Cylinder, Ground, HalfSpace, Leaf, Nappe, Solid, Sphere, Surface,
 };
 pub use quadratic::roots;
-pub use range::{MAX_LENGTH, MAX_STRETCH, MIN_LENGTH, UNIT_TOLERANCE};
+pub use range::{MAX_LENGTH, MAX_SPEED, MAX_STRETCH, MIN_LENGTH, UNIT_TOLERANCE};
 pub use ray::{Line, Ray, RayError};
 pub use real::{Lane, Mask, Real};
 pub use span::Span;

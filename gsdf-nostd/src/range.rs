@@ -25,12 +25,17 @@ pub(crate) const PARALLEL_SPEED: f32 = 1.0 / (1_u128 << 100) as f32;
 /// A ray is taken as parallel to an axis when the square of its tilt (the sine of the angle between them) is below this: 2^-64.
 pub(crate) const PARALLEL_TILT_SQUARED: f32 = 1.0 / (1_u128 << 64) as f32;
 
+/// The largest magnitude of the largest component of a direction, and the inverse of the smallest: 2^40.
+///
+/// Parameters along the ray are in units of the direction, and must neither overflow nor lose digits.
+pub const MAX_SPEED: f32 = 1_099_511_627_776.0;
+
 /// The power of two that brings a normal number's magnitude into [1, 2); multiplying by it is exact.
 pub(crate) const fn unit_scale(value: f32) -> f32 {
     let exponent = (value.to_bits() >> 23_u32) & 0xff;
     match exponent {
-        // The inverse of 2^127 is below the normal numbers.
-        254 => f32::from_bits(1 << 22),
+        // The inverse of 2^127 is below the normal numbers. (What is not finite has no scale; the caller refuses it.)
+        254.. => f32::from_bits(1 << 22),
         _ => f32::from_bits((254 - exponent) << 23),
     }
 }

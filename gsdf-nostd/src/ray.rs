@@ -1,6 +1,6 @@
 //! Rays, refused when they are not rays.
 
-use crate::range::{MAX_LENGTH, max_norm, unit_scale};
+use crate::range::{MAX_LENGTH, MAX_SPEED, max_norm, unit_scale};
 use crate::real::Real;
 use crate::toward::Toward;
 use crate::vec3::V3;
@@ -30,8 +30,12 @@ pub enum RayError {
     OriginTooFar(Vec3),
     /// The direction has a component that is NaN or infinite.
     DirectionNotFinite(Vec3),
-    /// The direction is zero, or so short (every component below 2^-126) that its components have lost digits.
+    /// The direction is zero.
     DirectionZero(Vec3),
+    /// The largest component of the direction is below 2^-40.
+    DirectionTooShort(Vec3),
+    /// A component of the direction is beyond ±2^40.
+    DirectionTooLong(Vec3),
     /// The range does not satisfy `0 <= start < end`, or holds NaN.
     Range(f32, f32),
 }
@@ -44,8 +48,12 @@ impl fmt::Display for RayError {
                 write!(f, "ray origin {found}: every coordinate must be within -2^30..2^30")
             }
             Self::DirectionNotFinite(found) => write!(f, "ray direction {found}: every component must be finite"),
-            Self::DirectionZero(found) => {
-                write!(f, "ray direction {found}: some component must be at least 2^-126 in magnitude")
+            Self::DirectionZero(found) => write!(f, "ray direction {found}: must not be zero"),
+            Self::DirectionTooShort(found) => {
+                write!(f, "ray direction {found}: some component must be at least 2^-40 in magnitude")
+            }
+            Self::DirectionTooLong(found) => {
+                write!(f, "ray direction {found}: every component must be within -2^40..2^40")
             }
             Self::Range(start, end) => write!(f, "ray range {start}..{end}: must satisfy 0 <= start < end"),
         }
@@ -58,7 +66,7 @@ impl Ray {
     /// The ray from `origin` along `direction`, over the range from 0 to infinity.
     ///
     /// # Errors
-    /// Where a component is not finite, the origin is beyond ±2^30, or the direction is zero or denormal.
+    /// Where a component is not finite, the origin is beyond ±2^30, the direction is zero, or its largest component is not from 2^-40 to 2^40.
     pub const fn new(origin: Vec3, direction: Vec3) -> Result<Self, RayError> {
         if !is_finite(origin) {
             return Err(RayError::OriginNotFinite(origin));
@@ -70,8 +78,14 @@ impl Ray {
             return Err(RayError::DirectionNotFinite(direction));
         }
         let largest = max_norm(direction);
-        if largest < f32::MIN_POSITIVE {
+        if largest == 0.0 {
             return Err(RayError::DirectionZero(direction));
+        }
+        if largest < 1.0 / MAX_SPEED {
+            return Err(RayError::DirectionTooShort(direction));
+        }
+        if largest > MAX_SPEED {
+            return Err(RayError::DirectionTooLong(direction));
         }
         Ok(Self {
             origin,
@@ -172,7 +186,7 @@ mod tests {
         assert!(matches!(Ray::new(Vec3::ZERO, Vec3::ZERO), Err(RayError::DirectionZero(_))));
         assert!(matches!(
             Ray::new(Vec3::ZERO, vec3(1e-40, 0.0, 0.0)),
-            Err(RayError::DirectionZero(_))
+            Err(RayError::DirectionTooShort(_))
         ));
         assert!(matches!(Ray::new(vec3(1e10, 0.0, 0.0), Vec3::X), Err(RayError::OriginTooFar(_))));
         let ray = Ray::new(Vec3::ZERO, Vec3::X).unwrap();
@@ -183,7 +197,7 @@ mod tests {
 
     #[test]
     fn parameters_are_in_units_of_the_direction() {
-        for length in [1e-37_f32, 0.3, 1.0, 7.0, 1e38] {
+        for length in [1e-12_f32, 0.3, 1.0, 7.0, 1e12] {
             let ray = Ray::new(Vec3::ZERO, vec3(0.0, length, 0.0)).unwrap();
             assert_eq!(ray.parameter_of(ray.parameter_on_line(0.75_f32)), 0.75);
         }

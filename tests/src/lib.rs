@@ -1,9 +1,12 @@
 //! What holds gsdf to its promises: an exact reference, generators of solids and rays, and the properties built on them.
 
 pub mod corpus;
+pub mod poses;
 pub mod reference;
 pub mod sandwich;
 pub mod shape;
+pub mod tiles;
+pub mod trees;
 
 /// The README's code, compiled and run as it stands.
 #[cfg(doctest)]

@@ -29,6 +29,8 @@ pub enum ProgramError {
     MissingPose(u16, usize),
     /// A leaf of the subtree that ends at this index already names a frame.
     PosedTwice(usize),
+    /// The operand that ends at this index was to be posed in frame 0, which is the world.
+    PosedInWorld(usize),
     /// The scratch memory holds this many spans, where the program has that many leaves.
     ScratchTooShort(usize, usize),
 }
@@ -46,6 +48,7 @@ impl ProgramError {
             Self::WrongSize(..) => "the number of nodes differs from the length of the array",
             Self::MissingPose(..) => "leaves name frames for which no pose was given",
             Self::PosedTwice(_) => "a leaf already names a frame: pose it once",
+            Self::PosedInWorld(_) => "frame 0 is the world, which has no pose: use a frame from 1 up",
             Self::ScratchTooShort(..) => "the scratch memory is shorter than the program has leaves",
         }
     }
@@ -56,7 +59,9 @@ impl fmt::Display for ProgramError {
         f.write_str(self.message())?;
         match *self {
             Self::Empty | Self::TooManyLeaves => Ok(()),
-            Self::MissingOperand(node) | Self::TooDeep(node) | Self::PosedTwice(node) => write!(f, " (node {node})"),
+            Self::MissingOperand(node) | Self::TooDeep(node) | Self::PosedTwice(node) | Self::PosedInWorld(node) => {
+                write!(f, " (node {node})")
+            }
             Self::Unjoined(operands) => write!(f, " ({operands} left)"),
             Self::WrongSize(nodes, room) => write!(f, " ({nodes} nodes, room for {room})"),
             Self::MissingPose(frame, poses) => write!(f, " (frame {frame} of {poses})"),

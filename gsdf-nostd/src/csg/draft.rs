@@ -74,6 +74,14 @@ impl<const N: usize, L: Copy> Draft<N, L> {
     #[must_use]
     pub const fn posed(self, frame: u16) -> Self {
         let mut draft = self;
+        if draft.length == 0 {
+            draft.error = Some(ProgramError::MissingOperand(0));
+            return draft;
+        }
+        if frame == 0 {
+            draft.error = Some(ProgramError::PosedInWorld(draft.length - 1));
+            return draft;
+        }
         // Walks back over the last operand: an operator asks for what precedes it, a leaf gives.
         let mut wanted = 1_u32;
         let mut index = draft.length;

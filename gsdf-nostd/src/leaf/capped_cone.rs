@@ -30,6 +30,8 @@ pub struct CappedCone {
     scale: f32,
 }
 
+const NAMES: [&str; 3] = ["capped cone bottom", "capped cone top", "capped cone axis"];
+
 /// A [`CappedCone`] seen from a point.
 #[derive(Clone, Copy, Debug)]
 pub struct SeenCappedCone<T> {
@@ -48,7 +50,7 @@ impl CappedCone {
     /// a radius is not from 2^-20 to 2^30. (With a radius of zero it is a [`Cone`](super::Cone).)
     pub const fn new(bottom: Vec3, top: Vec3, axis: Vec3, bottom_radius: f32, top_radius: f32) -> Result<Self, Invalid> {
         match (
-            ends("capped cone", bottom, top, axis),
+            ends(NAMES, bottom, top, axis),
             length("capped cone bottom radius", bottom_radius),
             length("capped cone top radius", top_radius),
         ) {
@@ -69,7 +71,7 @@ impl CappedCone {
     /// # Errors
     /// As for [`new`](Self::new).
     pub fn between(bottom: Vec3, top: Vec3, bottom_radius: f32, top_radius: f32) -> Result<Self, Invalid> {
-        Self::new(bottom, top, axis_between(bottom, top), bottom_radius, top_radius)
+        Self::new(bottom, top, axis_between(NAMES, bottom, top)?, bottom_radius, top_radius)
     }
 
     /// The centre of the cap the axis leads away from.

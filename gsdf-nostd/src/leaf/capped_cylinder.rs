@@ -3,7 +3,7 @@
 use super::cylinder::{Cylinder, SeenSide};
 use super::plane;
 use super::solid::{Bounds, Ground, Solid, Surface};
-use crate::invalid::{Invalid, axis_between, ends};
+use crate::invalid::{Invalid, axis_between, ends, length};
 use crate::range::max_norm;
 use crate::real::Real;
 use crate::span::Span;
@@ -24,6 +24,8 @@ pub struct CappedCylinder {
     top: Vec3,
 }
 
+const NAMES: [&str; 3] = ["capped cylinder bottom", "capped cylinder top", "capped cylinder axis"];
+
 /// A [`CappedCylinder`] seen from a point.
 #[derive(Clone, Copy, Debug)]
 pub struct SeenCappedCylinder<T> {
@@ -43,8 +45,11 @@ impl CappedCylinder {
     /// Where a coordinate is not finite or out of range, `axis` is not of unit length or does not lead from `bottom` to `top`, these are nearer than 2^-20, or
     /// the radius is not from 2^-20 to 2^30.
     pub const fn new(bottom: Vec3, top: Vec3, axis: Vec3, radius: f32) -> Result<Self, Invalid> {
-        match (ends("capped cylinder", bottom, top, axis), Cylinder::new(bottom, axis, radius)) {
-            (Ok(()), Ok(side)) => Ok(Self { side, top }),
+        match (ends(NAMES, bottom, top, axis), length("capped cylinder radius", radius)) {
+            (Ok(()), Ok(radius)) => Ok(Self {
+                side: Cylinder::from_valid(bottom, axis, radius),
+                top,
+            }),
             (Err(error), _) | (_, Err(error)) => Err(error),
         }
     }
@@ -54,7 +59,7 @@ impl CappedCylinder {
     /// # Errors
     /// As for [`new`](Self::new).
     pub fn between(bottom: Vec3, top: Vec3, radius: f32) -> Result<Self, Invalid> {
-        Self::new(bottom, top, axis_between(bottom, top), radius)
+        Self::new(bottom, top, axis_between(NAMES, bottom, top)?, radius)
     }
 
     /// The centre of the cap the axis leads away from.

@@ -4,7 +4,7 @@ use super::cylinder::SeenSide;
 use super::plane;
 use super::solid::{Bounds, Ground, Solid, Surface};
 use super::sphere::{SeenSphere, Sphere};
-use crate::invalid::{Fault, Invalid};
+use crate::invalid::{Fault, Invalid, length, point};
 use crate::range::{MIN_LENGTH, max_norm, unit_scale};
 use crate::real::Real;
 use crate::span::Span;
@@ -40,18 +40,18 @@ impl Capsule {
     /// # Errors
     /// Where a coordinate is not finite or out of range, the ends are nearer than 2^-20 (then it is a [`Sphere`]), or the radius is not from 2^-20 to 2^30.
     pub const fn new(a: Vec3, b: Vec3, radius: f32) -> Result<Self, Invalid> {
-        match (Sphere::new(a, radius), Sphere::new(b, radius)) {
-            (Ok(first), Ok(second)) => {
+        match (point("capsule a", a), point("capsule b", b), length("capsule radius", radius)) {
+            (Ok(a), Ok(b), Ok(radius)) => {
                 let reach = max_norm(Vec3::new(b.x - a.x, b.y - a.y, b.z - a.z));
                 if reach < MIN_LENGTH {
                     return Err(Invalid::new("distance between capsule ends", reach, Fault::TooSmall));
                 }
                 Ok(Self {
-                    ends: [first, second],
+                    ends: [Sphere::from_valid(a, radius), Sphere::from_valid(b, radius)],
                     scale: unit_scale(reach),
                 })
             }
-            (Err(error), _) | (_, Err(error)) => Err(error),
+            (Err(error), _, _) | (_, Err(error), _) | (_, _, Err(error)) => Err(error),
         }
     }
 

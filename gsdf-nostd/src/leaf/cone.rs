@@ -28,6 +28,8 @@ pub struct Cone {
     scale: f32,
 }
 
+const NAMES: [&str; 3] = ["cone apex", "cone base", "cone axis"];
+
 /// A [`Cone`] seen from a point.
 #[derive(Clone, Copy, Debug)]
 pub struct SeenFiniteCone<T> {
@@ -43,7 +45,7 @@ impl Cone {
     /// Where a coordinate is not finite or out of range, `axis` is not of unit length or does not lead from `apex` to `base`, these are nearer than 2^-20, or
     /// the radius is not from 2^-20 to 2^30.
     pub const fn new(apex: Vec3, base: Vec3, axis: Vec3, radius: f32) -> Result<Self, Invalid> {
-        match (ends("cone", apex, base, axis), length("cone radius", radius)) {
+        match (ends(NAMES, apex, base, axis), length("cone radius", radius)) {
             (Ok(()), Ok(radius)) => Ok(Self {
                 apex,
                 base,
@@ -60,7 +62,7 @@ impl Cone {
     /// # Errors
     /// As for [`new`](Self::new).
     pub fn between(apex: Vec3, base: Vec3, radius: f32) -> Result<Self, Invalid> {
-        Self::new(apex, base, axis_between(apex, base), radius)
+        Self::new(apex, base, axis_between(NAMES, apex, base)?, radius)
     }
 
     /// The tip.

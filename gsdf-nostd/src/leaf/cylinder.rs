@@ -35,9 +35,14 @@ impl Cylinder {
             unit("cylinder axis", axis),
             length("cylinder radius", radius),
         ) {
-            (Ok(point), Ok(axis), Ok(radius)) => Ok(Self { point, axis, radius }),
+            (Ok(point), Ok(axis), Ok(radius)) => Ok(Self::from_valid(point, axis, radius)),
             (Err(error), _, _) | (_, Err(error), _) | (_, _, Err(error)) => Err(error),
         }
+    }
+
+    /// The cylinder of parameters that were checked under other names.
+    pub(super) const fn from_valid(point: Vec3, axis: Vec3, radius: f32) -> Self {
+        Self { point, axis, radius }
     }
 
     /// A point of the axis.

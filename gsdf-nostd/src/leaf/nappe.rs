@@ -3,7 +3,7 @@
 use super::conical_side::{Profile, SeenCone};
 use super::solid::{Bounds, Ground, Solid, Surface};
 use crate::invalid::{Fault, Invalid, length, point, unit};
-use crate::range::{larger, max_norm, unit_scale};
+use crate::range::{MIN_LENGTH, larger, max_norm, unit_scale};
 use crate::real::Real;
 use crate::span::Span;
 use crate::toward::Toward;
@@ -56,15 +56,15 @@ impl Nappe {
         }
     }
 
-    /// The nappe with a half-angle in radians, strictly between 0 and π/2; not `const`, because of the sine and cosine.
+    /// The nappe with a half-angle in radians, from 2^-20 to π/2 - 2^-20; not `const`, because of the sine and cosine.
     ///
     /// # Errors
-    /// As for [`new`](Self::new), with the tangent of the angle from 2^-20 to 2^20.
+    /// As for [`new`](Self::new), or where the angle is out of its range.
     pub fn with_angle(apex: Vec3, axis: Vec3, half_angle: f32) -> Result<Self, Invalid> {
         if !half_angle.is_finite() {
             return Err(Invalid::new("nappe half-angle", half_angle, Fault::NotFinite));
         }
-        if !(half_angle > 0.0 && half_angle < core::f32::consts::FRAC_PI_2) {
+        if !(half_angle >= MIN_LENGTH && half_angle <= core::f32::consts::FRAC_PI_2 - MIN_LENGTH) {
             return Err(Invalid::new("nappe half-angle", half_angle, Fault::NotAcute));
         }
         let (sine, cosine) = libm::sincosf(half_angle);

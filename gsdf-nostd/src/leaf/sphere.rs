@@ -39,9 +39,14 @@ impl Sphere {
     /// Where a coordinate is not finite or out of range, or the radius is not from 2^-20 to 2^30.
     pub const fn new(center: Vec3, radius: f32) -> Result<Self, Invalid> {
         match (point("sphere center", center), length("sphere radius", radius)) {
-            (Ok(center), Ok(radius)) => Ok(Self { center, radius }),
+            (Ok(center), Ok(radius)) => Ok(Self::from_valid(center, radius)),
             (Err(error), _) | (_, Err(error)) => Err(error),
         }
+    }
+
+    /// The sphere of parameters that were checked under other names.
+    pub(super) const fn from_valid(center: Vec3, radius: f32) -> Self {
+        Self { center, radius }
     }
 
     /// The centre.
