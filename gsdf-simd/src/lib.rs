@@ -1,1 +1,47 @@
-//! x
+//! Packets of eight rays through the formulas of [`gsdf_nostd`].
+//!
+//! There is no formula in this crate: [`F32x8`] implements [`gsdf_nostd::Real`], and the text that computes one ray computes eight. Each lane gets the bits that the scalar query
+//! gets, on every target.
+//!
+//! ```
+//! use glam::{Vec3, vec3};
+//! use gsdf_nostd::{Ray, Sphere, csg};
+//! use gsdf_simd::{Packet, scratch};
+//!
+//! csg! { const BALL = Sphere::new(Vec3::ZERO, 1.0) }
+//! let rays: [Ray; 8] = core::array::from_fn(|lane| Ray::new(vec3(0.3 * lane as f32, 0.0, 5.0), Vec3::NEG_Z).unwrap());
+//! let hits = Packet::new(&rays).cast(&BALL.program(), &mut scratch(BALL.leaves()))?;
+//! for (lane, ray) in rays.iter().enumerate() {
+//!     assert_eq!(hits.lane(lane, ray), BALL.cast(ray));
+//! }
+//! # Ok::<(), gsdf_nostd::ProgramError>(())
+//! ```
+//!
+//! Without the feature `std` (on by default) the crate is `no_std` and does not allocate: packets and their queries. With it come whole [images](Image) on all cores.
+#![cfg_attr(not(feature = "std"), no_std)]
+#![forbid(unsafe_code)]
+
+#[cfg(feature = "std")]
+mod image;
+mod lanes;
+mod packet;
+
+#[cfg(feature = "std")]
+pub use image::{Band, Canvas, Image, Pixel, Planes, Tally};
+pub use lanes::{F32x8, Mask8};
+pub use packet::{Hits, Packet};
+
+use gsdf_nostd::Span;
+
+/// Scratch memory for the packets of a program with this many leaves.
+#[cfg(feature = "std")]
+#[must_use]
+pub fn scratch(leaves: usize) -> Vec<Span<F32x8>> {
+    vec![EMPTY; leaves]
+}
+
+/// Eight spans without points: what scratch memory is filled with.
+pub const EMPTY: Span<F32x8> = Span {
+    enter: F32x8::INFINITY,
+    exit: F32x8::NEG_INFINITY,
+};

@@ -43,15 +43,15 @@ impl<T: Real> Framed<T> {
 }
 
 impl<L: Solid> Program<'_, L> {
-    /// All leaves as seen from one origin in the world, for the lines of a pinhole camera; `seen` should hold one per leaf. To be used as [`SeenFrom`](super::SeenFrom).
-    pub fn see_from<S: Lane>(&self, origin: V3<S>, seen: &mut [L::Seen<S>]) {
-        let mut seen = seen.iter_mut();
-        for node in self.nodes {
-            let Node::Leaf { solid, frame } = node else { continue };
-            let Some(seen) = seen.next() else { break };
-            let local = self.pose(*frame).map_or(origin, |pose| pose.point_to_local(origin));
-            *seen = solid.seen_from(local);
-        }
+    /// All leaves, in order, as seen from one origin in the world: for many lines from there. To be used as [`SeenFrom`](super::SeenFrom).
+    pub fn seen_from<S: Lane>(&self, origin: V3<S>) -> impl Iterator<Item = L::Seen<S>> {
+        self.nodes.iter().filter_map(move |node| match node {
+            Node::Leaf { solid, frame } => {
+                let local = self.pose(*frame).map_or(origin, |pose| pose.point_to_local(origin));
+                Some(solid.seen_from(local))
+            }
+            _ => None,
+        })
     }
 
     /// First stage: the span of every leaf along a line in the world, into `spans`, which should hold one per leaf.

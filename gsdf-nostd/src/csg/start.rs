@@ -40,7 +40,7 @@ impl<L: Solid, T: Real> Footing<L, T> for Anywhere {
     }
 }
 
-/// The place is the one from which [`Program::see_from`] has seen all leaves: what depends on the origin alone is done.
+/// The place is the one from which [`Program::seen_from`] has seen all leaves: what depends on the origin alone is done.
 #[derive(Debug)]
 pub struct SeenFrom<'s, S>(pub &'s [S]);
 

@@ -64,7 +64,7 @@ impl Nappe {
         if !half_angle.is_finite() {
             return Err(Invalid::new("nappe half-angle", half_angle, Fault::NotFinite));
         }
-        if !(half_angle >= MIN_LENGTH && half_angle <= core::f32::consts::FRAC_PI_2 - MIN_LENGTH) {
+        if !(MIN_LENGTH..=core::f32::consts::FRAC_PI_2 - MIN_LENGTH).contains(&half_angle) {
             return Err(Invalid::new("nappe half-angle", half_angle, Fault::NotAcute));
         }
         let (sine, cosine) = libm::sincosf(half_angle);

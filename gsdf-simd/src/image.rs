@@ -1,0 +1,270 @@
+//! Whole images, on all cores.
+
+use crate::lanes::F32x8;
+use crate::packet::{Hits, Packet};
+use crate::scratch;
+use core::ops::Range;
+use gsdf_nostd::{Program, Projection, Raster, SeenFrom, Solid, V3};
+use rayon::prelude::*;
+
+/// How many rows a thread takes at a time.
+const BAND_ROWS: u32 = 16;
+
+/// An image to be: a program seen through a camera's raster, of any width and height.
+#[derive(Debug)]
+pub struct Image<'a, L> {
+    program: Program<'a, L>,
+    raster: Raster,
+}
+
+/// One pixel as a record of 20 bytes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(C)]
+pub struct Pixel {
+    /// The parameter of the ray: depth, for the cameras of `gsdf_nostd`. Infinite where it hits nothing.
+    pub distance: f32,
+    /// The unit normal, outward from the program; zero where the ray hits nothing.
+    pub normal: [f32; 3],
+    /// The number of the leaf; [`Pixel::NO_LEAF`] where the ray hits nothing.
+    pub leaf: u32,
+}
+
+impl Pixel {
+    /// The leaf of a pixel that shows nothing.
+    pub const NO_LEAF: u32 = u32::MAX;
+
+    /// A pixel that shows nothing.
+    pub const NOTHING: Self = Self {
+        distance: f32::INFINITY,
+        normal: [0.0; 3],
+        leaf: Self::NO_LEAF,
+    };
+}
+
+/// What an image took.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Tally {
+    /// The pixels that show something.
+    pub hits: u64,
+    /// The packets cast.
+    pub packets: u64,
+    /// The sweeps over the program that they took, each in its slowest lane.
+    pub sweeps: u64,
+    /// The sweeps of the packet that took the most.
+    pub most_sweeps: u32,
+}
+
+impl Tally {
+    /// This and another one, of other pixels.
+    #[must_use]
+    pub fn joined(self, other: Self) -> Self {
+        Self {
+            hits: self.hits + other.hits,
+            packets: self.packets + other.packets,
+            sweeps: self.sweeps + other.sweeps,
+            most_sweeps: self.most_sweeps.max(other.most_sweeps),
+        }
+    }
+}
+
+/// Where the pixels of an image go, in a layout of its own.
+///
+/// Implemented here by [`Planes`] and by slices of [`Pixel`]s; implement it for a frame buffer of yours.
+pub trait Canvas {
+    /// A horizontal part of the canvas, which one thread fills.
+    type Band<'b>: Band + Send
+    where
+        Self: 'b;
+
+    /// Cuts the canvas, which is `width` pixels wide, into bands of `rows` rows, from the top. The last may be lower.
+    fn bands(&mut self, width: u32, rows: u32) -> Vec<Self::Band<'_>>;
+}
+
+/// A horizontal part of a [`Canvas`].
+pub trait Band {
+    /// Takes the first `count` lanes: the pixels from `x` on in row `y` of the band.
+    fn put(&mut self, x: u32, y: u32, count: usize, hits: &Hits);
+}
+
+impl<'a, L: Solid + Sync> Image<'a, L> {
+    /// The image of a program.
+    #[must_use]
+    pub fn new(program: Program<'a, L>, raster: Raster) -> Self {
+        Self { program, raster }
+    }
+
+    /// Casts a ray through the centre of every pixel, on the threads of the current `rayon` pool. The pixels do not depend on their number.
+    pub fn render<C: Canvas + ?Sized>(&self, canvas: &mut C) -> Tally
+    where
+        L::Seen<f32>: Send + Sync,
+    {
+        let (width, height) = (self.raster.width(), self.raster.height());
+        let seen = self.seen();
+        let bands = canvas.bands(width, BAND_ROWS);
+        bands
+            .into_par_iter()
+            .zip((0..height).into_par_iter().step_by(BAND_ROWS as usize))
+            .map_init(
+                || scratch(self.program.leaves()),
+                |spans, (mut band, top)| {
+                    let rows = top..(top + BAND_ROWS).min(height);
+                    self.render_rows(rows, seen.as_deref(), spans, &mut band)
+                },
+            )
+            .reduce(Tally::default, Tally::joined)
+    }
+
+    /// What depends on the origin alone, if all rays share it: once per image.
+    fn seen(&self) -> Option<Vec<L::Seen<f32>>> {
+        let eye = V3::from(self.raster.camera().eye());
+        let shared = self.raster.camera().projection() == Projection::Pinhole;
+        shared.then(|| self.program.seen_from(eye).collect())
+    }
+
+    fn render_rows<B: Band>(
+        &self,
+        rows: Range<u32>,
+        seen: Option<&[L::Seen<f32>]>,
+        spans: &mut [gsdf_nostd::Span<F32x8>],
+        band: &mut B,
+    ) -> Tally {
+        let mut tally = Tally::default();
+        let width = self.raster.width();
+        for y in rows.clone() {
+            for x in (0..width).step_by(8) {
+                let packet = Packet::through(&self.raster, centers(x), F32x8::splat(y as f32 + 0.5));
+                let hits = match seen {
+                    Some(seen) => packet.cast_in(&self.program, SeenFrom(seen), spans),
+                    None => packet.cast_in(&self.program, gsdf_nostd::Anywhere, spans),
+                };
+                let count = (width - x).min(8);
+                band.put(x, y - rows.start, count as usize, &hits);
+                tally = tally.joined(Tally {
+                    hits: u64::from((u32::from(hits.hit.to_bits()) & ((1 << count) - 1)).count_ones()),
+                    packets: 1,
+                    sweeps: u64::from(hits.sweeps),
+                    most_sweeps: hits.sweeps,
+                });
+            }
+        }
+        tally
+    }
+}
+
+/// The abscissas of the centres of eight pixels from `x` on.
+#[inline(always)]
+fn centers(x: u32) -> F32x8 {
+    F32x8::new([0.5, 1.5, 2.5, 3.5, 4.5, 5.5, 6.5, 7.5]) + F32x8::splat(x as f32)
+}
+
+impl Canvas for [Pixel] {
+    type Band<'b> = PixelBand<'b>;
+
+    fn bands(&mut self, width: u32, rows: u32) -> Vec<PixelBand<'_>> {
+        let width = width.max(1) as usize;
+        (self.chunks_mut(width * rows as usize))
+            .map(|pixels| PixelBand { pixels, width })
+            .collect()
+    }
+}
+
+/// Rows of records.
+#[derive(Debug)]
+pub struct PixelBand<'b> {
+    pixels: &'b mut [Pixel],
+    width: usize,
+}
+
+impl Band for PixelBand<'_> {
+    fn put(&mut self, x: u32, y: u32, count: usize, hits: &Hits) {
+        let start = y as usize * self.width + x as usize;
+        let distance = hits.t.to_array();
+        let normal = hits.met.surface.normal;
+        let (nx, ny, nz) = (normal.x.to_array(), normal.y.to_array(), normal.z.to_array());
+        let leaf = hits.met.leaf.to_array();
+        let bits = hits.hit.to_bits();
+        for (lane, pixel) in self.pixels.iter_mut().skip(start).take(count).enumerate() {
+            *pixel = if bits >> lane & 1 == 1 {
+                Pixel {
+                    distance: distance[lane],
+                    normal: [nx[lane], ny[lane], nz[lane]],
+                    leaf: leaf[lane] as u32,
+                }
+            } else {
+                Pixel::NOTHING
+            };
+        }
+    }
+}
+
+/// Planes of the caller's, row by row, each row `stride` numbers long; those that are not wanted are left out.
+#[derive(Debug)]
+pub struct Planes<'p> {
+    /// The parameters of the rays, infinite where they hit nothing.
+    pub distance: &'p mut [f32],
+    /// The components of the normals, zero where a ray hits nothing.
+    pub normal: Option<[&'p mut [f32]; 3]>,
+    /// The numbers of the leaves, [`Pixel::NO_LEAF`] where a ray hits nothing.
+    pub leaf: Option<&'p mut [u32]>,
+    /// How far the rows are apart; at least the width of the image.
+    pub stride: usize,
+}
+
+impl Canvas for Planes<'_> {
+    type Band<'b>
+        = Planes<'b>
+    where
+        Self: 'b;
+
+    fn bands(&mut self, _: u32, rows: u32) -> Vec<Planes<'_>> {
+        let stride = self.stride.max(1);
+        let length = stride * rows as usize;
+        let mut normal = (self.normal.as_mut()).map(|planes| planes.each_mut().map(|plane| plane.chunks_mut(length)));
+        let mut leaf = self.leaf.as_mut().map(|plane| plane.chunks_mut(length));
+        let mut next_normal = || {
+            let [x, y, z] = normal.as_mut()?;
+            Some([x.next()?, y.next()?, z.next()?])
+        };
+        (self.distance.chunks_mut(length))
+            .map(|distance| Planes {
+                distance,
+                normal: next_normal(),
+                leaf: leaf.as_mut().and_then(Iterator::next),
+                stride,
+            })
+            .collect()
+    }
+}
+
+impl Band for Planes<'_> {
+    fn put(&mut self, x: u32, y: u32, count: usize, hits: &Hits) {
+        let start = y as usize * self.stride + x as usize;
+        let zero = F32x8::splat(0.0);
+        store(self.distance, start, count, &hits.t.to_array());
+        if let Some([x, y, z]) = &mut self.normal {
+            let shown = V3::select(hits.hit, hits.met.surface.normal, V3::new(zero, zero, zero));
+            store(x, start, count, &shown.x.to_array());
+            store(y, start, count, &shown.y.to_array());
+            store(z, start, count, &shown.z.to_array());
+        }
+        if let Some(leaf) = &mut self.leaf {
+            let bits = hits.hit.to_bits();
+            let lanes = hits.met.leaf.to_array();
+            let numbers = core::array::from_fn(|lane| {
+                if bits >> lane & 1 == 1 {
+                    lanes[lane] as u32
+                } else {
+                    Pixel::NO_LEAF
+                }
+            });
+            store(leaf, start, count, &numbers);
+        }
+    }
+}
+
+/// Stores the first lanes, as far as the plane reaches.
+fn store<N: Copy>(plane: &mut [N], start: usize, count: usize, lanes: &[N; 8]) {
+    for (place, lane) in plane.iter_mut().skip(start).take(count).zip(lanes) {
+        *place = *lane;
+    }
+}

@@ -1,0 +1,199 @@
+//! Eight `f32` in whatever vectors the target has: the portable packet.
+
+use core::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
+use gsdf_nostd::{Mask, Real};
+use wide::f32x8;
+
+/// Eight `f32`: one AVX register, or two of SSE2, NEON or wasm's simd128, or plain numbers elsewhere.
+///
+/// Only operations that round correctly are taken from `wide`: not its fused or estimated ones, and not its `min` and `max`, which treat NaN and signed zeros by target.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(transparent)]
+pub struct F32x8(f32x8);
+
+/// Eight truth values: lanes of all ones or all zeros.
+#[derive(Clone, Copy, Debug)]
+#[repr(transparent)]
+pub struct Mask8(f32x8);
+
+impl F32x8 {
+    /// The lanes, first to last.
+    #[inline(always)]
+    #[must_use]
+    pub fn new(lanes: [f32; 8]) -> Self {
+        Self(f32x8::new(lanes))
+    }
+
+    /// Infinity in every lane.
+    pub const INFINITY: Self = Self(f32x8::new([f32::INFINITY; 8]));
+    /// Negative infinity in every lane.
+    pub const NEG_INFINITY: Self = Self(f32x8::new([f32::NEG_INFINITY; 8]));
+
+    /// The power of two at or below each lane, for positive normal numbers: their exponent bits alone.
+    #[inline(always)]
+    #[must_use]
+    pub(crate) fn power_of_two_below(self) -> Self {
+        Self(self.0 & f32x8::splat(f32::INFINITY))
+    }
+
+    /// The same number in every lane.
+    #[inline(always)]
+    #[must_use]
+    pub fn splat(value: f32) -> Self {
+        Self(f32x8::splat(value))
+    }
+
+    /// The lanes, first to last.
+    #[inline(always)]
+    #[must_use]
+    pub fn to_array(self) -> [f32; 8] {
+        self.0.to_array()
+    }
+}
+
+impl Mask8 {
+    /// Truth values from the bits of a number, the lowest bit for the first lane.
+    #[inline(always)]
+    #[must_use]
+    pub fn from_bits(bits: u8) -> Self {
+        let lane = |lane: u32| f32::from(bits >> lane & 1);
+        Self(f32x8::new([lane(0), lane(1), lane(2), lane(3), lane(4), lane(5), lane(6), lane(7)]).simd_gt(f32x8::splat(0.5)))
+    }
+
+    /// The truth values as the bits of a number, the lowest bit for the first lane.
+    #[inline(always)]
+    #[must_use]
+    #[allow(clippy::cast_possible_truncation, reason = "eight lanes have eight bits")]
+    pub fn to_bits(self) -> u8 {
+        self.0.to_bitmask() as u8
+    }
+}
+
+macro_rules! lane_by_lane {
+    ($operator:ident, $method:ident) => {
+        impl $operator for F32x8 {
+            type Output = Self;
+            #[inline(always)]
+            fn $method(self, other: Self) -> Self {
+                Self($operator::$method(self.0, other.0))
+            }
+        }
+    };
+}
+
+lane_by_lane!(Add, add);
+lane_by_lane!(Sub, sub);
+lane_by_lane!(Mul, mul);
+lane_by_lane!(Div, div);
+
+impl Neg for F32x8 {
+    type Output = Self;
+    #[inline(always)]
+    fn neg(self) -> Self {
+        // The sign bit, flipped: not a subtraction from zero.
+        Self(self.0 ^ f32x8::splat(-0.0))
+    }
+}
+
+impl BitAnd for Mask8 {
+    type Output = Self;
+    #[inline(always)]
+    fn bitand(self, other: Self) -> Self {
+        Self(self.0 & other.0)
+    }
+}
+
+impl BitOr for Mask8 {
+    type Output = Self;
+    #[inline(always)]
+    fn bitor(self, other: Self) -> Self {
+        Self(self.0 | other.0)
+    }
+}
+
+impl Not for Mask8 {
+    type Output = Self;
+    #[inline(always)]
+    fn not(self) -> Self {
+        Self(self.0 ^ ones())
+    }
+}
+
+#[inline(always)]
+fn ones() -> f32x8 {
+    f32x8::splat(f32::from_bits(u32::MAX))
+}
+
+impl Mask for Mask8 {
+    #[inline(always)]
+    fn any(self) -> bool {
+        self.0.any()
+    }
+    #[inline(always)]
+    fn all(self) -> bool {
+        self.0.all()
+    }
+    #[inline(always)]
+    fn splat_like(self, value: bool) -> Self {
+        if value { Self(ones()) } else { Self(f32x8::splat(0.0)) }
+    }
+    #[inline(always)]
+    fn differs_from(self, other: Self) -> Self {
+        Self(self.0 ^ other.0)
+    }
+}
+
+impl Real for F32x8 {
+    const LANES: usize = 8;
+    type Mask = Mask8;
+    type Scalar = f32;
+
+    #[inline(always)]
+    fn splat_like(self, value: f32) -> Self {
+        Self::splat(value)
+    }
+    #[inline(always)]
+    fn lift_like(self, value: f32) -> Self {
+        Self::splat(value)
+    }
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        Self(self.0.sqrt())
+    }
+    #[inline(always)]
+    fn abs(self) -> Self {
+        Self(self.0 & f32x8::splat(f32::from_bits(0x7fff_ffff)))
+    }
+    #[inline(always)]
+    fn copysign(self, sign: Self) -> Self {
+        let bit = f32x8::splat(-0.0);
+        Self((self.0 & f32x8::splat(f32::from_bits(0x7fff_ffff))) | (sign.0 & bit))
+    }
+    #[inline(always)]
+    fn lt(self, other: Self) -> Mask8 {
+        Mask8(self.0.simd_lt(other.0))
+    }
+    #[inline(always)]
+    fn le(self, other: Self) -> Mask8 {
+        Mask8(self.0.simd_le(other.0))
+    }
+    #[inline(always)]
+    fn eq(self, other: Self) -> Mask8 {
+        Mask8(self.0.simd_eq(other.0))
+    }
+    #[inline(always)]
+    fn select(mask: Mask8, yes: Self, no: Self) -> Self {
+        Self(mask.0.select(yes.0, no.0))
+    }
+    // x86's own minimum and maximum are the contract: the second operand where either is NaN or both are equal.
+    #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+    #[inline(always)]
+    fn min(self, other: Self) -> Self {
+        Self(self.0.fast_min(other.0))
+    }
+    #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+    #[inline(always)]
+    fn max(self, other: Self) -> Self {
+        Self(self.0.fast_max(other.0))
+    }
+}
