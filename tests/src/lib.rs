@@ -1,5 +1,6 @@
 //! What holds gsdf to its promises: an exact reference, generators of solids and rays, and the properties built on them.
 
+pub mod arrangements;
 pub mod corpus;
 pub mod poses;
 pub mod reference;
