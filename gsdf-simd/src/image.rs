@@ -1,8 +1,7 @@
 //! Whole images, on all cores.
 
 use crate::lanes::F32x8;
-use crate::packet::{Hits, Packet};
-use crate::scratch;
+use crate::packet::{Hits, Packet, scratch};
 use core::ops::Range;
 use gsdf_nostd::{Program, Projection, Raster, SeenFrom, Solid, V3};
 use rayon::prelude::*;

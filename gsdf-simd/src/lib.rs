@@ -29,19 +29,6 @@ mod packet;
 #[cfg(feature = "std")]
 pub use image::{Band, Canvas, Image, Pixel, Planes, Tally};
 pub use lanes::{F32x8, Mask8};
-pub use packet::{Hits, Packet};
-
-use gsdf_nostd::Span;
-
-/// Scratch memory for the packets of a program with this many leaves.
 #[cfg(feature = "std")]
-#[must_use]
-pub fn scratch(leaves: usize) -> Vec<Span<F32x8>> {
-    vec![EMPTY; leaves]
-}
-
-/// Eight spans without points: what scratch memory is filled with.
-pub const EMPTY: Span<F32x8> = Span {
-    enter: F32x8::INFINITY,
-    exit: F32x8::NEG_INFINITY,
-};
+pub use packet::scratch;
+pub use packet::{EMPTY, Hits, Packet};

@@ -183,3 +183,16 @@ fn enough<'s, L>(program: &Program<'_, L>, scratch: &'s mut [Span<F32x8>]) -> Re
         .get_mut(..program.leaves())
         .ok_or(ProgramError::ScratchTooShort(length, program.leaves()))
 }
+
+/// Scratch memory for the packets of a program with this many leaves.
+#[cfg(feature = "std")]
+#[must_use]
+pub fn scratch(leaves: usize) -> std::vec::Vec<Span<F32x8>> {
+    std::vec![EMPTY; leaves]
+}
+
+/// Eight spans without points: what scratch memory is filled with.
+pub const EMPTY: Span<F32x8> = Span {
+    enter: F32x8::INFINITY,
+    exit: F32x8::NEG_INFINITY,
+};

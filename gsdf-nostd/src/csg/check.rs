@@ -1,6 +1,6 @@
 //! What makes a list of nodes a program.
 
-use super::program::Node;
+use super::node::Node;
 use core::fmt;
 
 /// How many operands a program may hold at once. Every program of up to 2^32 leaves can be written within it, by putting the heavier operand of each node first.

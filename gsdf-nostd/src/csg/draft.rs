@@ -1,7 +1,8 @@
 //! Programs in the making.
 
 use super::check::ProgramError;
-use super::program::{Csg, Node};
+use super::node::Node;
+use super::program::Csg;
 use crate::leaf::Leaf;
 
 /// A program of `N` nodes being written, solid by solid and operator by operator, in `const` or at run time.

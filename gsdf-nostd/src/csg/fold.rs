@@ -1,7 +1,7 @@
 //! The one walk over a program that both readings share.
 
 use super::check::MAX_DEPTH;
-use super::program::Node;
+use super::node::Node;
 use crate::real::Real;
 
 /// What the operators of a program act on.

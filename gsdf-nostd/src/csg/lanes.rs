@@ -1,7 +1,8 @@
 //! The directional reading in any arithmetic: the three stages of a query, one lane or many at a time.
 
-use super::program::{Node, Program};
-use super::start::Footing;
+use super::footing::Footing;
+use super::node::Node;
+use super::program::Program;
 use super::sweep::{Attribution, attribute};
 use crate::leaf::{Solid, Surface};
 use crate::ray::Line;

@@ -1,6 +1,6 @@
 //! The exact next crossing of a program: sweeps, each from a leaf root to a later one.
 
-use super::program::Node;
+use super::node::Node;
 use super::sweep::sweep;
 use crate::real::{Mask, Real};
 use crate::span::Span;

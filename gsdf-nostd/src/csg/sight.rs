@@ -1,6 +1,7 @@
 //! The directional reading of a program: one ray, all its leaf roots computed, ready for questions.
 
 use super::check::ProgramError;
+use super::hit::Hit;
 use super::march::{March, march};
 use super::program::{Csg, Program};
 use super::start::Start;
@@ -15,9 +16,9 @@ use crate::span::Span;
 /// What follows are only comparisons of these numbers. `S` is the scratch memory they lie in, whose element type is the arithmetic they were computed in.
 #[derive(Clone, Copy, Debug)]
 pub struct Sight<'a, L, S, R = Ray> {
-    pub(super) program: Program<'a, L>,
-    pub(super) start: R,
-    pub(super) spans: S,
+    program: Program<'a, L>,
+    start: R,
+    spans: S,
 }
 
 /// Where a ray crosses the boundary of a program.
@@ -125,13 +126,26 @@ impl<'a, L: Solid, S, R: Start> Sight<'a, L, S, R> {
 
     /// The next crossing beyond `t`, both on the ray's [line](Ray::line), if it lies within the ray's range.
     #[inline]
-    pub(super) fn march_from<T: Lane>(&self, t: T) -> Option<T>
+    fn march_from<T: Lane>(&self, t: T) -> Option<T>
     where
         S: AsRef<[Span<T>]>,
     {
         let ray = self.ray();
         let found = march(self.program.nodes, self.spans.as_ref(), t).t;
         ray.parameter_of(found).lt(T::from(ray.range().end)).then_some(found)
+    }
+}
+
+impl<L: Solid, S: AsRef<[Span<f32>]>, R: Start> Sight<'_, L, S, R> {
+    /// The first crossing within the ray's range, with its normal.
+    #[must_use]
+    pub fn cast(&self) -> Option<Hit> {
+        let ray = self.ray();
+        let start = ray.parameter_on_line(ray.range().start);
+        let found = self.march_from(start)?;
+        let met = self.start.surface(&self.program, self.spans.as_ref(), found);
+        let t = ray.parameter_of(found);
+        Some(Hit::new(ray, t, &met))
     }
 }
 

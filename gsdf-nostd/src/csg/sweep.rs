@@ -1,7 +1,7 @@
 //! The directional reading of a program, one parameter at a time: its leaves are spans of one ray.
 
 use super::fold::{Operand, Reading, Signed, fold};
-use super::program::Node;
+use super::node::Node;
 use crate::real::{Mask, Real};
 use crate::span::Span;
 use core::slice::Iter;

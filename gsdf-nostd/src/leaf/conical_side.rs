@@ -67,16 +67,15 @@ impl<T: Real> SeenCone<T> {
     /// The ray is first re-centred at its point nearest the reference point, where nothing far away is left to cancel. With `W`, `V` the cross products
     /// of `w`, `v` with the axis and `R = r + s w.a`, `G = s v.a` the radius there and its growth along the ray:
     /// `A = k² V.V - G²`, `B = k² W.V - G R`, `C = k² W.W - R²` and `D = B² - A C = k² (|R V - G W|² - k² |W x V|²)`, in which no large terms cancel either.
+    /// (Where `A C <= 0` the first form is a sum.)
     ///
-    /// A ray steeper than the side (`A < 0`) meets both nappes once; a shallower one meets one of them twice, ours where `R` is positive between its roots. One parallel to
-    /// a generatrix has `A = 0`, which sends one root to infinity by itself. One along the axis of a side that hardly widens sees no change at all.
+    /// A ray steeper than the side (`A < 0`) meets both nappes once, a shallower one meets one of them twice; one parallel to a generatrix has `A = 0`, which sends one root to infinity
+    /// by itself. What lies on the other nappe is cut off where `R` vanishes. A ray along the axis of a side that hardly widens sees no change at all.
     #[inline(always)]
     pub(super) fn span(&self, profile: &Profile<T>, toward: &Toward<T>) -> Span<T> {
         let zero = self.c.splat_like(0.0);
         let infinity = zero.splat_like(f32::INFINITY);
-        // On our nappe: the other one's surface is none.
-        let on = self.c.eq(zero) & zero.lt(profile.r + profile.s * self.w.dot(profile.axis));
-        let shift = T::select(on, zero, -(self.w.dot(toward.v) * toward.per_vv));
+        let shift = -(self.w.dot(toward.v) * toward.per_vv);
         let near = self.w + toward.v.scaled(shift);
 
         let w = near.cross(profile.axis);
@@ -87,34 +86,45 @@ impl<T: Real> SeenCone<T> {
         let (across2, growth2) = (k2 * v.norm_squared(), growth.squared());
         let a = across2 - growth2;
         let b = k2 * w.dot(v) - growth * radius;
-        let c = T::select(on, zero, k2 * w.norm_squared() - radius.squared());
+        let c = k2 * w.norm_squared() - radius.squared();
         let skew = v.scaled(radius) - w.scaled(growth);
         let cancelled = k2 * (skew.norm_squared() - k2 * w.cross(v).norm_squared());
-        let d = T::select(on, b.squared(), cancelled);
+        let plain = b.squared() - a * c;
+        let d = T::select((a * c).le(zero), plain, cancelled);
 
-        let steep = a.lt(zero);
-        let ours = on | zero.le(radius * a - growth * b);
         let still = k2 * profile.axis.norm_squared() * toward.vv * zero.splat_like(PARALLEL_TILT_SQUARED);
         let constant = (across2 + growth2).lt(still);
         let within = constant & c.lt(zero) & zero.lt(radius);
-        let steep = steep & !constant;
-        let shallow = !steep & !constant & ours & zero.lt(d);
+        let steep = a.lt(zero) & !constant;
+        let shallow = !steep & !constant & zero.lt(d);
         if nowhere(steep | shallow | within) {
             return Span::empty_like(zero);
         }
         // A steep ray always meets the cone; through the apex both roots coincide, and a least positive number keeps them numbers.
-        let d = T::select(steep, d.max(zero.splat_like(f32::MIN_POSITIVE)), d);
+        let least = plain.max(zero.splat_like(f32::MIN_POSITIVE));
+        let d = T::select(steep & d.le(zero), least, d);
         let (first, last) = roots(zero.splat_like(1.0) / a, b, c, d);
-        // On the side a steep ray stands at its one crossing of this nappe.
-        let first = T::select(steep & on, zero, first);
-        let last = T::select(steep & on, zero, last);
         let widening = zero.lt(growth);
         let enter = T::select(steep, T::select(widening, last, -infinity), first);
         let exit = T::select(steep, T::select(widening, infinity, first), last);
+
+        // Our nappe is where the radius is positive: beyond the tip, before it, or everywhere or nowhere.
+        let tip = -(radius / growth);
+        let flat = growth.eq(zero);
+        let enter = T::select(widening, enter.max(tip), enter);
+        let exit = T::select(widening | flat, exit, exit.min(tip));
+        let ours = !flat | zero.lt(radius);
+
+        let (enter, exit) = (enter + shift, exit + shift);
+        // From a point of the side one of the roots is 0: the entry if the ray goes inward there, the exit if outward.
+        let on = self.c.eq(zero) & zero.lt(profile.r + profile.s * self.w.dot(profile.axis));
+        let inward = T::select(steep, -growth, b - a * shift).lt(zero);
+        let enter = T::select(on & inward, zero, enter);
+        let exit = T::select(on & !inward, zero, exit);
         Span::between_where(
-            steep | shallow | within,
-            T::select(within, -infinity, enter + shift),
-            T::select(within, infinity, exit + shift),
+            (steep | shallow | within) & ours,
+            T::select(within, -infinity, enter),
+            T::select(within, infinity, exit),
         )
     }
 

@@ -1,0 +1,49 @@
+//! What a query finds.
+
+use super::lanes::Encounter;
+use crate::leaf::Ground;
+use crate::range::max_norm;
+use crate::ray::Ray;
+use crate::real::Lane;
+use glam::Vec3;
+
+/// Where a ray first crosses the boundary of a program, and what it meets there.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hit {
+    /// The parameter of the ray, in units of its direction's length; an end of a leaf's span, bit for bit.
+    pub t: f32,
+    /// The point, each coordinate with the rounding of `t` and two more.
+    pub point: Vec3,
+    /// The unit normal of the surface, outward from the solid: against the ray where it enters, along it where it leaves.
+    pub normal: Vec3,
+    /// The number of the leaf whose surface it is.
+    pub leaf: u32,
+    /// The number of that leaf's face, as its `surface` numbers them.
+    pub face: u8,
+    /// Whether the ray enters the solid there, or leaves it.
+    pub entering: bool,
+    /// How far the point may be off the surface by rounding alone.
+    pub(super) slack: f32,
+}
+
+impl Hit {
+    /// What a ray meets at its parameter `t`: for evaluators of one's own, such as packets.
+    #[must_use]
+    pub fn new(ray: &Ray, t: f32, met: &Encounter<f32>) -> Self {
+        let point = ray.at(t);
+        Self {
+            t,
+            point,
+            normal: met.surface.normal.into(),
+            leaf: met.leaf.to_index(),
+            face: face_number(met.surface.face),
+            entering: met.entering,
+            slack: (max_norm(ray.origin()) + max_norm(point)) * Ground::<f32>::ROUNDING,
+        }
+    }
+}
+
+fn face_number(face: f32) -> u8 {
+    // Saturates: no solid has 255 faces.
+    u8::try_from(face.to_index()).unwrap_or(u8::MAX)
+}
