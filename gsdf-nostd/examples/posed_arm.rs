@@ -1,4 +1,5 @@
-//! A scene in flash with a joint that moves: each frame poses the arm anew and looks at it, without rebuilding anything.
+//! A scene in flash with a joint that moves: each frame poses the arm anew and looks at it, without rebuilding
+//! anything.
 //!
 //! `cargo run --release --package gsdf-nostd --example posed_arm`
 

@@ -28,17 +28,21 @@ pub enum Projection {
 }
 
 impl Camera {
-    /// A camera at `eye` that looks at `target`, with `up` upward in the picture. `tangent` is that of half the vertical field of view.
+    /// A camera at `eye` that looks at `target`, with `up` upward in the picture. `tangent` is that of half the
+    /// vertical field of view.
     ///
-    /// Its rays advance by one unit along the viewing direction per unit of their parameter: `t` is depth. They are not of unit length off the centre.
+    /// Its rays advance by one unit along the viewing direction per unit of their parameter: `t` is depth. They are
+    /// not of unit length off the centre.
     ///
     /// # Errors
-    /// Where a number is not finite or out of range, eye and target coincide, or `up` is parallel to the line of sight.
+    /// Where a number is not finite or out of range, eye and target coincide, or `up` is parallel to the line of
+    /// sight.
     pub fn pinhole(eye: Vec3, target: Vec3, up: Vec3, tangent: f32) -> Result<Self, Invalid> {
         Self::new(eye, target, up, length("camera tangent", tangent)?, Projection::Pinhole)
     }
 
-    /// A camera with parallel rays at `eye` that looks at `target`, with `up` upward in the picture, which is `2 half_height` high in the scene. `t` is depth.
+    /// A camera with parallel rays at `eye` that looks at `target`, with `up` upward in the picture, which is `2
+    /// half_height` high in the scene. `t` is depth.
     ///
     /// # Errors
     /// As for [`pinhole`](Self::pinhole).
@@ -157,7 +161,8 @@ impl Raster {
         Ray::new(origin.into(), direction.into())
     }
 
-    /// Origin and direction of the ray through any place of the picture, in any arithmetic: the same bits in every lane.
+    /// Origin and direction of the ray through any place of the picture, in any arithmetic: the same bits in every
+    /// lane.
     #[inline(always)]
     #[allow(clippy::cast_precision_loss, reason = "pictures are narrower than 2^24 pixels")]
     pub fn line<T: Real>(&self, x: T, y: T) -> (V3<T>, V3<T>) {

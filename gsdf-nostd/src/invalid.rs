@@ -6,8 +6,9 @@ use glam::Vec3;
 
 /// A parameter of a solid, a transform or a camera that describes nothing.
 ///
-/// Names the parameter and carries the number found; its [`Display`](fmt::Display) form adds what would be right. Refusing here is what keeps
-/// queries free of surprises: a solid made of nonsense would be an empty span, and an empty span under a complement is a full one.
+/// Names the parameter and carries the number found; its [`Display`](fmt::Display) form adds what would be right.
+/// Refusing here is what keeps queries free of surprises: a solid made of nonsense would be an empty span, and an
+/// empty span under a complement is a full one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Invalid {
     parameter: &'static str,
@@ -39,7 +40,8 @@ pub enum Fault {
     NotAcute,
     /// Vectors that coincide, vanish or are parallel where they must not be.
     Degenerate,
-    /// A matrix without an inverse, or one that stretches by more than 2^10 or less than 2^-10; the number found is its determinant.
+    /// A matrix without an inverse, or one that stretches by more than 2^10 or less than 2^-10; the number found is
+    /// its determinant.
     Singular,
 }
 
@@ -177,9 +179,11 @@ pub(crate) const fn unit(parameter: &'static str, value: Vec3) -> Result<Vec3, I
     }
 }
 
-/// Whether `axis` is a unit vector that leads from one point to another, at least [`MIN_LENGTH`] apart; `names` are those of the three.
+/// Whether `axis` is a unit vector that leads from one point to another, at least [`MIN_LENGTH`] apart; `names` are
+/// those of the three.
 ///
-/// The second may lie off the axis through the first by 2^-18 of their distance and of their coordinates: what rounding an oblique axis does, and no more.
+/// The second may lie off the axis through the first by 2^-18 of their distance and of their coordinates: what
+/// rounding an oblique axis does, and no more.
 pub(crate) const fn ends(names: [&'static str; 3], from: Vec3, to: Vec3, axis: Vec3) -> Result<(), Invalid> {
     match (point(names[0], from), point(names[1], to), unit(names[2], axis)) {
         (Ok(_), Ok(_), Ok(_)) => {}

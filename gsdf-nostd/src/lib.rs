@@ -1,8 +1,9 @@
 //! Closed-form ray casting of CSG solids: no iteration to an epsilon, no allocation, no standard library.
 //!
-//! A solid, seen along one ray, is a set of spans of the ray's parameter. For the solids of this crate each span has a closed form, and those of solids composed from them
-//! by union, intersection, difference and complement follow by comparing the numbers: `min`, `max` and negation, as for any signed distance function. Scenes are
-//! fixed arrays that can lie in flash; the results have the same bits on a Cortex-M0 and on a server.
+//! A solid, seen along one ray, is a set of spans of the ray's parameter. For the solids of this crate each span has
+//! a closed form, and those of solids composed from them by union, intersection, difference and complement follow by
+//! comparing the numbers: `min`, `max` and negation, as for any signed distance function. Scenes are fixed arrays
+//! that can lie in flash; the results have the same bits on a Cortex-M0 and on a server.
 //!
 //! # A first distance
 //! ```
@@ -29,40 +30,52 @@
 //! ```
 //!
 //! # One program, two readings
-//! A [`Csg`] is a list of solids and operators. Read at a point it is the *standard* signed distance function [`sdf`](Csg::sdf): how far to the nearest surface, as sphere tracing
-//! wants it. Read along a ray it is the *generalized* one, [`gsdf`](Csg::gsdf): how far to the next surface in that direction. Both are negative inside, and in both union is the minimum,
-//! intersection the maximum and complement the negative.
+//! A [`Csg`] is a list of solids and operators. Read at a point it is the *standard* signed distance function
+//! [`sdf`](Csg::sdf): how far to the nearest surface, as sphere tracing wants it. Read along a ray it is the
+//! *generalized* one, [`gsdf`](Csg::gsdf): how far to the next surface in that direction. Both are negative inside,
+//! and in both union is the minimum, intersection the maximum and complement the negative.
 //!
-//! Along a ray the minimum of two next crossings is not always the next crossing of the union (a surface within the other solid is none), so one evaluation is only a bound; but it never
-//! oversteps, and it always is the root of some leaf. [`march`] repeats it from root to root until the sign turns: at most `2 leaves + 1` comparisons of the numbers computed once, two on
-//! average, and no epsilon. [`cast`](Csg::cast) adds the normal and the leaf, [`crossings`](Csg::crossings) goes on to the end of the ray, and [`cast_from`](Csg::cast_from)
-//! starts on a surface without meeting it again.
+//! Along a ray the minimum of two next crossings is not always the next crossing of the union (a surface within the
+//! other solid is none), so one evaluation is only a bound; but it never oversteps, and it always is the root of some
+//! leaf. [`march`] repeats it from root to root until the sign turns: at most `2 leaves + 1` comparisons of the
+//! numbers computed once, two on average, and no epsilon. [`cast`](Csg::cast) adds the normal and the leaf,
+//! [`crossings`](Csg::crossings) goes on to the end of the ray, and [`cast_from`](Csg::cast_from) starts on a surface
+//! without meeting it again.
 //!
 //! # Boundaries
-//! Spans are half-open. A ray that only touches a solid, or lies in one of its faces, misses it; solids that share a face merge into one, and a solid cut away to a shared face leaves no skin, as long
-//! as both wrote the face with the same numbers: a transform belongs to a frame ([`Transform`], `posed` in [`csg!`]) and not into the solid's own numbers. Where the surfaces of several
-//! leaves coincide, the one with the lowest number is reported, unless the solid does not show it.
+//! Spans are half-open. A ray that only touches a solid, or lies in one of its faces, misses it; solids that share a
+//! face merge into one, and a solid cut away to a shared face leaves no skin, as long as both wrote the face with the
+//! same numbers: a transform belongs to a frame ([`Transform`], `posed` in [`csg!`]) and not into the solid's own
+//! numbers. Where the surfaces of several leaves coincide, the one with the lowest number is reported, unless the
+//! solid does not show it.
 //!
 //! # Accuracy
-//! A *rounding error* is the unit roundoff (2<sup>-24</sup> in `f32`, 2<sup>-53</sup> in `f64`) times the size of the numbers that meet at a crossing: the distance of the ray's origin from the world's, plus the distance of
-//! the solid's farthest point of definition, plus its radius, plus the distance travelled. For every solid, and every ray in range, a computed crossing, or a computed miss, is the exact one of
-//! a surface moved by at most 8 rounding errors (4 in any test so far). It is thus near-silhouette rays alone whose hit or miss can be wrong. A pose adds the errors of mapping the
-//! ray.
+//! A *rounding error* is the unit roundoff (2<sup>-24</sup> in `f32`, 2<sup>-53</sup> in `f64`) times the size of the
+//! numbers that meet at a crossing: the distance of the ray's origin from the world's, plus the distance of the
+//! solid's farthest point of definition, plus its radius, plus the distance travelled. For every solid, and every ray
+//! in range, a computed crossing, or a computed miss, is the exact one of a surface moved by at most 8 rounding
+//! errors (4 in any test so far). It is thus near-silhouette rays alone whose hit or miss can be wrong. A pose adds
+//! the errors of mapping the ray.
 //!
 //! # Range
-//! Coordinates and sizes up to 2<sup>30</sup>, sizes from 2<sup>-20</sup>, transforms that stretch by at most 2<sup>10</sup>; directions from 2<sup>-40</sup> to 2<sup>40</sup>. What lies outside is refused with an error that says so, at compile time where a scene is `const`.
+//! Coordinates and sizes up to 2<sup>30</sup>, sizes from 2<sup>-20</sup>, transforms that stretch by at most
+//! 2<sup>10</sup>; directions from 2<sup>-40</sup> to 2<sup>40</sup>. What lies outside is refused with an error that
+//! says so, at compile time where a scene is `const`.
 //!
 //! # Paying for what you use
-//! A program links the formulas of its leaf type's solids and no others: [`leaf_set!`] makes a leaf type of the ones a scene needs, your own among them ([`Solid`]). No function in this crate
-//! allocates, recurses or panics.
+//! A program links the formulas of its leaf type's solids and no others: [`leaf_set!`] makes a leaf type of the ones
+//! a scene needs, your own among them ([`Solid`]). No function in this crate allocates, recurses or panics.
 //!
 //! # Arithmetic
-//! Every formula is written once, over [`Real`], and runs in `f32`, in `f64` and in packets of lanes (crate `gsdf-simd`) with the same bits per lane. The functions on slices of nodes and spans
-//! ([`sweep`], [`march`], [`attribute`]) are the pieces to build evaluators of your own from.
+//! Every formula is written once, over [`Real`], and runs in `f32`, in `f64` and in packets of lanes (crate
+//! `gsdf-simd`) with the same bits per lane. The functions on slices of nodes and spans ([`sweep`], [`march`],
+//! [`attribute`]) are the pieces to build evaluators of your own from.
 //!
 //! # Sources
-//! H. Yamada, Generalized Signed Distance Functions for Raytracing Algorithms (2021), of which this is a repair: most formulas printed there miss a sign, a factor or a case. S. Roth, Ray Casting for Modeling Solids (1982).
-//! I. Quilez, Distance functions. E. Haines, J. Günther, T. Akenine-Möller, Precision Improvements for Ray/Sphere Intersection (2019).
+//! H. Yamada, Generalized Signed Distance Functions for Raytracing Algorithms (2021), of which this is a repair: most
+//! formulas printed there miss a sign, a factor or a case. S. Roth, Ray Casting for Modeling Solids (1982). I.
+//! Quilez, Distance functions. E. Haines, J. Günther, T. Akenine-Möller, Precision Improvements for Ray/Sphere
+//! Intersection (2019).
 #![no_std]
 #![forbid(unsafe_code)]
 #![cfg_attr(not(test), warn(clippy::default_numeric_fallback))]

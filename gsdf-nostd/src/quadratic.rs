@@ -4,11 +4,13 @@ use crate::real::Real;
 
 /// The two roots of `A t² + 2 B t + C` in ascending order, from `q = -(B + copysign(√D, B))` as `q / A` and `C / q`.
 ///
-/// `D = B² - A C` is given separately, because near a silhouette it cancels: each solid computes it from lengths that do not. The root that cancellation
-/// would spoil is never formed as a difference. `per_a` is `1 / A`. Meaningless unless `D > 0`, which also makes `q` non-zero.
+/// `D = B² - A C` is given separately, because near a silhouette it cancels: each solid computes it from lengths that
+/// do not. The root that cancellation would spoil is never formed as a difference. `per_a` is `1 / A`. Meaningless
+/// unless `D > 0`, which also makes `q` non-zero.
 ///
-/// Relative error about 3 units roundoff where `A`, `B`, `C` and `D` are exact. Source: W. H. Press et al., Numerical Recipes, 5.6; E. Haines, J. Günther,
-/// T. Akenine-Möller, Precision Improvements for Ray/Sphere Intersection, Ray Tracing Gems, chapter 7 (2019).
+/// Relative error about 3 units roundoff where `A`, `B`, `C` and `D` are exact. Source: W. H. Press et al., Numerical
+/// Recipes, 5.6; E. Haines, J. Günther, T. Akenine-Möller, Precision Improvements for Ray/Sphere Intersection, Ray
+/// Tracing Gems, chapter 7 (2019).
 #[inline(always)]
 pub fn roots<T: Real>(per_a: T, b: T, c: T, d: T) -> (T, T) {
     let q = -(b + d.sqrt().copysign(b));

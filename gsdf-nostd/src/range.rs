@@ -1,9 +1,10 @@
 //! The range of numbers in which every formula of this crate is free of overflow and of harmful underflow.
 //!
-//! With coordinates up to 2^30, transforms that stretch by at most 2^10 either way and ray directions scaled exactly to a largest component in
-//! [1, 2), no product of a formula exceeds 2^114, and the discriminant of a solid of the least size keeps its leading bits above the
-//! smallest normal number. What lies outside is refused where it is made ([`Invalid`](crate::Invalid), [`RayError`](crate::RayError)), so that no query
-//! has to look, and none returns a silent wrong answer.
+//! With coordinates up to 2^30, transforms that stretch by at most 2^10 either way and ray directions scaled exactly
+//! to a largest component in [1, 2), no product of a formula exceeds 2^114, and the discriminant of a solid of the
+//! least size keeps its leading bits above the smallest normal number. What lies outside is refused where it is made
+//! ([`Invalid`](crate::Invalid), [`RayError`](crate::RayError)), so that no query has to look, and none returns a
+//! silent wrong answer.
 
 use glam::Vec3;
 
@@ -13,16 +14,19 @@ pub const MAX_LENGTH: f32 = 1_073_741_824.0;
 /// The least size of a solid: 2^-20.
 pub const MIN_LENGTH: f32 = 1.0 / 1_048_576.0;
 
-/// By how much the squared length of a unit vector may differ from one: 2^-21, about two units in the last place of its length.
+/// By how much the squared length of a unit vector may differ from one: 2^-21, about two units in the last place of
+/// its length.
 pub const UNIT_TOLERANCE: f64 = 1.0 / 2_097_152.0;
 
 /// The factor by which a transform may stretch a length, and its inverse: 2^10.
 pub const MAX_STRETCH: f32 = 1024.0;
 
-/// A ray whose speed towards a plane is below this, in units of a direction with components up to 2, is taken as parallel to it: 2^-100.
+/// A ray whose speed towards a plane is below this, in units of a direction with components up to 2, is taken as
+/// parallel to it: 2^-100.
 pub(crate) const PARALLEL_SPEED: f32 = 1.0 / (1_u128 << 100) as f32;
 
-/// A ray is taken as parallel to an axis when the square of its tilt (the sine of the angle between them) is below this: 2^-64.
+/// A ray is taken as parallel to an axis when the square of its tilt (the sine of the angle between them) is below
+/// this: 2^-64.
 pub(crate) const PARALLEL_TILT_SQUARED: f32 = 1.0 / (1_u128 << 64) as f32;
 
 /// The largest magnitude of the largest component of a direction, and the inverse of the smallest: 2^40.

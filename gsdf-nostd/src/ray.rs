@@ -10,7 +10,8 @@ use glam::Vec3;
 
 /// The half-line `origin + t direction` for `t` in a range, checked once so that no query has to.
 ///
-/// The parameter `t` is in units of the direction's length: a distance where the direction is of unit length, which it need not be.
+/// The parameter `t` is in units of the direction's length: a distance where the direction is of unit length, which
+/// it need not be.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ray {
     origin: Vec3,
@@ -66,7 +67,8 @@ impl Ray {
     /// The ray from `origin` along `direction`, over the range from 0 to infinity.
     ///
     /// # Errors
-    /// Where a component is not finite, the origin is beyond ±2^30, the direction is zero, or its largest component is not from 2^-40 to 2^40.
+    /// Where a component is not finite, the origin is beyond ±2^30, the direction is zero, or its largest component
+    /// is not from 2^-40 to 2^40.
     pub const fn new(origin: Vec3, direction: Vec3) -> Result<Self, RayError> {
         if !is_finite(origin) {
             return Err(RayError::OriginNotFinite(origin));
@@ -95,8 +97,8 @@ impl Ray {
         })
     }
 
-    /// The same ray over another range of its parameter. What happens at `range.start` itself counts as past, what happens at `range.end` as
-    /// not reached.
+    /// The same ray over another range of its parameter. What happens at `range.start` itself counts as past, what
+    /// happens at `range.end` as not reached.
     ///
     /// # Errors
     /// Unless `0 <= range.start < range.end`.
@@ -149,7 +151,8 @@ impl Ray {
         t / t.splat_like(self.scale)
     }
 
-    /// The parameter of this ray that belongs to a parameter on [`line`](Self::line); exact unless it overflows to infinity.
+    /// The parameter of this ray that belongs to a parameter on [`line`](Self::line); exact unless it overflows to
+    /// infinity.
     pub(crate) fn parameter_of<T: Real>(self, t: T) -> T {
         t * t.splat_like(self.scale)
     }

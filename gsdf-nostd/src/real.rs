@@ -1,8 +1,8 @@
 //! The arithmetic every formula of this crate is written in.
 //!
-//! A formula is written once, over [`Real`], and compiled for `f32`, for `f64` and for whatever lane type a packet crate brings.
-//! To give the same bits everywhere the trait holds only operations that IEEE 754 rounds correctly, or that only pick or flip bits:
-//! no fused multiply-add, no estimates of reciprocals, no sums across lanes.
+//! A formula is written once, over [`Real`], and compiled for `f32`, for `f64` and for whatever lane type a packet
+//! crate brings. To give the same bits everywhere the trait holds only operations that IEEE 754 rounds correctly, or
+//! that only pick or flip bits: no fused multiply-add, no estimates of reciprocals, no sums across lanes.
 
 use core::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
@@ -40,11 +40,11 @@ impl Mask for bool {
 
 /// A real number, or a packet of them.
 ///
-/// Every operation is correctly rounded (`+ - * /`, [`sqrt`](Real::sqrt)) or exact (the rest), so that all implementations give the
-/// same bits for the same inputs, NaN payloads aside. Comparisons with NaN are false.
+/// Every operation is correctly rounded (`+ - * /`, [`sqrt`](Real::sqrt)) or exact (the rest), so that all
+/// implementations give the same bits for the same inputs, NaN payloads aside. Comparisons with NaN are false.
 ///
-/// Constants are made *like* an existing value ([`splat_like`](Real::splat_like)), because some lane types carry a proof of the
-/// processor's abilities that cannot be conjured from nothing.
+/// Constants are made *like* an existing value ([`splat_like`](Real::splat_like)), because some lane types carry a
+/// proof of the processor's abilities that cannot be conjured from nothing.
 pub trait Real: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self> + Neg<Output = Self> {
     /// The result of comparing two values.
     type Mask: Mask;
@@ -84,13 +84,15 @@ pub trait Real: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Se
     fn gt(self, other: Self) -> Self::Mask {
         other.lt(self)
     }
-    /// `self < other ? self : other`: the second operand where they are equal or either is NaN, as x86's `minps` has it.
+    /// `self < other ? self : other`: the second operand where they are equal or either is NaN, as x86's `minps` has
+    /// it.
     #[inline(always)]
     #[must_use]
     fn min(self, other: Self) -> Self {
         Self::select(self.lt(other), self, other)
     }
-    /// `other < self ? self : other`: the second operand where they are equal or either is NaN, as x86's `maxps` has it.
+    /// `other < self ? self : other`: the second operand where they are equal or either is NaN, as x86's `maxps` has
+    /// it.
     #[inline(always)]
     #[must_use]
     fn max(self, other: Self) -> Self {

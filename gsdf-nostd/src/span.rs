@@ -4,8 +4,9 @@ use crate::real::{Mask, Real};
 
 /// The part of a ray inside a convex solid: the parameters `enter <= t < exit`.
 ///
-/// Half-open spans form a Boolean algebra without isolated points: spans that touch merge, a tangent ray and a ray in a face miss, and
-/// coincident faces need no epsilon. An empty span always reads `enter = +inf, exit = -inf`, and no bound is ever NaN.
+/// Half-open spans form a Boolean algebra without isolated points: spans that touch merge, a tangent ray and a ray in
+/// a face miss, and coincident faces need no epsilon. An empty span always reads `enter = +inf, exit = -inf`, and no
+/// bound is ever NaN.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Span<T> {
     /// Where the ray enters, possibly -inf.
@@ -65,11 +66,11 @@ impl<T: Real> Span<T> {
         }
     }
 
-    /// The next boundary after `t >= 0`, with the sign of the side on which `t` lies: `+enter` ahead of the span, `-exit` in it, +inf
-    /// behind it.
+    /// The next boundary after `t >= 0`, with the sign of the side on which `t` lies: `+enter` ahead of the span,
+    /// `-exit` in it, +inf behind it.
     ///
-    /// Positive outside, negative inside, like every signed distance; but absolute along the ray, so that taking minima and maxima of
-    /// several solids only ever selects one of the numbers computed once per leaf.
+    /// Positive outside, negative inside, like every signed distance; but absolute along the ray, so that taking
+    /// minima and maxima of several solids only ever selects one of the numbers computed once per leaf.
     #[inline(always)]
     pub fn signed_crossing(self, t: T) -> T {
         let ahead = T::select(t.lt(self.exit), -self.exit, t.splat_like(f32::INFINITY));

@@ -6,7 +6,8 @@ use crate::vec3::V3;
 
 /// A ray's direction with what every solid wants of it, computed once per ray and frame.
 ///
-/// What a program's solids never look at is dead code to the compiler: a program of spheres pays for no reciprocal of a component.
+/// What a program's solids never look at is dead code to the compiler: a program of spheres pays for no reciprocal of
+/// a component.
 #[derive(Clone, Copy, Debug)]
 pub struct Toward<T> {
     /// The direction `v`; not necessarily of unit length.
@@ -35,9 +36,10 @@ impl<T: Real> Toward<T> {
 
 /// The reciprocal of a ray's speed along a plane's normal, +inf where the ray is parallel to the plane.
 ///
-/// Every plane of every solid divides by this one reciprocal, so that planes which coincide have roots of the same bits, whichever solids they
-/// bound. A speed below 2^-100 counts as zero, and zero as positive: with `g` the height over the plane `-g * inf` is then an infinity of the right
-/// sign, and NaN, hence a miss, for a ray that lies in the plane.
+/// Every plane of every solid divides by this one reciprocal, so that planes which coincide have roots of the same
+/// bits, whichever solids they bound. A speed below 2^-100 counts as zero, and zero as positive: with `g` the height
+/// over the plane `-g * inf` is then an infinity of the right sign, and NaN, hence a miss, for a ray that lies in the
+/// plane.
 #[inline(always)]
 pub fn reciprocal_speed<T: Real>(speed: T) -> T {
     let parallel = speed.abs().lt(speed.splat_like(PARALLEL_SPEED));

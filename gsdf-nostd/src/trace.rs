@@ -28,11 +28,13 @@ impl<const N: usize, L: Solid> Field for Csg<N, L> {
 
 /// The marcher: repeats `t <- t + |φ(p + t v)| / |v|` until the distance is small.
 ///
-/// With over-relaxation it steps further than the distance allows, and takes the step back when the two spheres it spans do not overlap. Source: J. Hart, Sphere Tracing (1996);
-/// B. Keinert, H. Schäfer, J. Korndörfer, U. Ganse, M. Stamminger, Enhanced Sphere Tracing (2014).
+/// With over-relaxation it steps further than the distance allows, and takes the step back when the two spheres it
+/// spans do not overlap. Source: J. Hart, Sphere Tracing (1996); B. Keinert, H. Schäfer, J. Korndörfer, U. Ganse, M.
+/// Stamminger, Enhanced Sphere Tracing (2014).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SphereTracer {
-    /// A hit is where the distance is at most this times the distance travelled (or times one unit, nearer than that).
+    /// A hit is where the distance is at most this times the distance travelled (or times one unit, nearer than
+    /// that).
     pub epsilon: f32,
     /// The march ends undecided after so many evaluations.
     pub max_steps: u32,

@@ -10,8 +10,8 @@ use glam::{Mat3, Vec3};
 
 /// An affine map from a local frame to the world, stored as its inverse.
 ///
-/// A ray keeps its parameter under an affine map: the solid stays as it is, in numbers as round as its author wrote them, and the ray comes to it.
-/// Solids that share a face in their local frame share it in every pose, to the bit.
+/// A ray keeps its parameter under an affine map: the solid stays as it is, in numbers as round as its author wrote
+/// them, and the ray comes to it. Solids that share a face in their local frame share it in every pose, to the bit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Transform {
     /// The rows of the matrix that takes world vectors to local ones.
@@ -44,12 +44,14 @@ impl Transform {
         }
     }
 
-    /// The map `x -> matrix x + translation`: a rotation, a scaling, a shear or all of them, followed by a translation.
+    /// The map `x -> matrix x + translation`: a rotation, a scaling, a shear or all of them, followed by a
+    /// translation.
     ///
     /// The inverse is computed in double precision and rounded once; the rounded inverse *is* the map from then on.
     ///
     /// # Errors
-    /// Where a number is not finite, the translation is beyond ±2^30, or the matrix has no inverse or stretches some length by more than 2^10 or less than 2^-10.
+    /// Where a number is not finite, the translation is beyond ±2^30, or the matrix has no inverse or stretches some
+    /// length by more than 2^10 or less than 2^-10.
     pub const fn affine(matrix: Mat3, translation: Vec3) -> Result<Self, Invalid> {
         if let Err(error) = point("translation", translation) {
             return Err(error);
@@ -88,8 +90,8 @@ impl Transform {
         })
     }
 
-    /// A lower bound on the factor by which the map stretches any length: its smallest singular value, exact up to rounding for rigid maps and uniform or axis-aligned
-    /// scalings, at most 1 % too small for others.
+    /// A lower bound on the factor by which the map stretches any length: its smallest singular value, exact up to
+    /// rounding for rigid maps and uniform or axis-aligned scalings, at most 1 % too small for others.
     #[must_use]
     pub const fn stretch(&self) -> f32 {
         self.stretch
@@ -166,7 +168,8 @@ const fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
 
 /// An upper bound on the largest singular value of a matrix given by rows (or columns), in `const`.
 ///
-/// Gershgorin's bound on the largest eigenvalue of `G = M Mᵀ`, taken on `G^64` to bring the factor 3 by which it may exceed down to `3^(1/64)`, and its square root.
+/// Gershgorin's bound on the largest eigenvalue of `G = M Mᵀ`, taken on `G^64` to bring the factor 3 by which it may
+/// exceed down to `3^(1/64)`, and its square root.
 const fn spectral_norm(rows: [[f64; 3]; 3]) -> f64 {
     const SQUARINGS: u32 = 6;
     let mut g = [[0.0_f64; 3]; 3];
@@ -215,7 +218,8 @@ const fn root(value: f64, times: u32) -> f64 {
     value
 }
 
-/// The square root of a positive number in `const`, where neither `std` nor `libm` has one: Newton's iteration from a guess that halves the exponent.
+/// The square root of a positive number in `const`, where neither `std` nor `libm` has one: Newton's iteration from a
+/// guess that halves the exponent.
 const fn sqrt(value: f64) -> f64 {
     if value <= 0.0_f64 {
         return 0.0_f64;

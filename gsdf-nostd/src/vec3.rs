@@ -6,7 +6,8 @@ use glam::Vec3;
 
 /// A point or a vector in space, in the arithmetic `T`.
 ///
-/// Sums are taken in one written order, x, then y, then z, so that every arithmetic of the same precision gives the same bits.
+/// Sums are taken in one written order, x, then y, then z, so that every arithmetic of the same precision gives the
+/// same bits.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct V3<T> {
     /// First coordinate.

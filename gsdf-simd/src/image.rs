@@ -92,7 +92,8 @@ impl<'a, L: Solid + Sync> Image<'a, L> {
         Self { program, raster }
     }
 
-    /// Casts a ray through the centre of every pixel, on the threads of the current `rayon` pool. The pixels do not depend on their number.
+    /// Casts a ray through the centre of every pixel, on the threads of the current `rayon` pool. The pixels do not
+    /// depend on their number.
     pub fn render<C: Canvas + ?Sized>(&self, canvas: &mut C) -> Tally
     where
         L::Seen<f32>: Send + Sync,

@@ -1,7 +1,7 @@
 //! Packets of eight rays through the formulas of [`gsdf_nostd`].
 //!
-//! There is no formula in this crate: [`F32x8`] implements [`gsdf_nostd::Real`], and the text that computes one ray computes eight. Each lane gets the bits that the scalar query
-//! gets, on every target.
+//! There is no formula in this crate: [`F32x8`] implements [`gsdf_nostd::Real`], and the text that computes one ray
+//! computes eight. Each lane gets the bits that the scalar query gets, on every target.
 //!
 //! ```
 //! use glam::{Vec3, vec3};
@@ -17,7 +17,8 @@
 //! # Ok::<(), gsdf_nostd::ProgramError>(())
 //! ```
 //!
-//! Without the feature `std` (on by default) the crate is `no_std` and does not allocate: packets and their queries. With it come whole [images](Image) on all cores.
+//! Without the feature `std` (on by default) the crate is `no_std` and does not allocate: packets and their queries.
+//! With it come whole [images](Image) on all cores.
 #![cfg_attr(not(feature = "std"), no_std)]
 #![forbid(unsafe_code)]
 

@@ -74,7 +74,8 @@ impl Packet {
         Self::from_lanes(origin, direction, start, end)
     }
 
-    /// The rays through these places of a picture, over the range from 0 to infinity. Lanes in which they are none (see [`Raster::ray_through`]) hold no ray.
+    /// The rays through these places of a picture, over the range from 0 to infinity. Lanes in which they are none
+    /// (see [`Raster::ray_through`]) hold no ray.
     #[inline(always)]
     #[must_use]
     pub fn through(raster: &Raster, x: F32x8, y: F32x8) -> Self {
@@ -82,7 +83,8 @@ impl Packet {
         Self::from_lanes(origin, direction, F32x8::splat(0.0), F32x8::INFINITY)
     }
 
-    /// Eight rays by their coordinates, with the ranges of their parameters. Lanes that [`Ray::new`] or [`Ray::within`] would refuse hold no ray: see [`valid`](Self::valid).
+    /// Eight rays by their coordinates, with the ranges of their parameters. Lanes that [`Ray::new`] or
+    /// [`Ray::within`] would refuse hold no ray: see [`valid`](Self::valid).
     #[inline(always)]
     #[must_use]
     pub fn from_lanes(origin: V3<F32x8>, direction: V3<F32x8>, start: F32x8, end: F32x8) -> Self {
@@ -94,7 +96,8 @@ impl Packet {
         let forward = F32x8::splat(0.0).le(start) & start.lt(end);
         let fast = F32x8::splat(1.0 / MAX_SPEED).le(largest);
         let valid = within(origin, MAX_LENGTH) & within(direction, MAX_SPEED) & fast & forward;
-        // A harmless ray in the lanes without one: their numbers meet those of the others in no operation but comparisons of masks.
+        // A harmless ray in the lanes without one: their numbers meet those of the others in no operation but
+        // comparisons of masks.
         let [nowhere, along] = [Vec3::ZERO, Vec3::X].map(|v| V3::splat(start, v));
         let origin = V3::select(valid, origin, nowhere);
         let direction = V3::select(valid, direction, along);
@@ -125,7 +128,8 @@ impl Packet {
         Ok(self.cast_in(program, Anywhere, enough(program, scratch)?))
     }
 
-    /// The generalized signed distance function of each ray from its origin: positive outside, negative inside, infinite where there is no crossing ahead; NaN in lanes without a ray.
+    /// The generalized signed distance function of each ray from its origin: positive outside, negative inside,
+    /// infinite where there is no crossing ahead; NaN in lanes without a ray.
     ///
     /// # Errors
     /// Where `scratch` is shorter than the program has leaves.

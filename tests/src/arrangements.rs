@@ -1,4 +1,5 @@
-//! Solids that touch, stand on each other or are cut from each other and share a face, in numbers that are no binary ones; and rays at what they share.
+//! Solids that touch, stand on each other or are cut from each other and share a face, in numbers that are no binary
+//! ones; and rays at what they share.
 
 use crate::poses::Tree;
 use crate::shape::{Shape, across, unit};
@@ -152,7 +153,8 @@ impl Arrangement {
         }
     }
 
-    /// A cylinder, a frustum and a cone on one oblique axis: caps are one plane because position and axis are, not because an axis is a coordinate's.
+    /// A cylinder, a frustum and a cone on one oblique axis: caps are one plane because position and axis are, not
+    /// because an axis is a coordinate's.
     fn tower(rng: &mut Pcg64) -> Self {
         let axis = unit(rng).as_vec3().normalize();
         let foot = Vec3::new(tenths(rng, -30, 30), tenths(rng, -30, 30), tenths(rng, -30, 30));
@@ -276,7 +278,8 @@ pub fn distance_to_edges(shape: &Shape, p: DVec3) -> f64 {
     };
     match *shape {
         Shape::Cuboid { min, max } => {
-            // On an edge two coordinates are those of faces: the second largest distance from a face's plane, if all three are within the box.
+            // On an edge two coordinates are those of faces: the second largest distance from a face's plane, if all
+            // three are within the box.
             let nearer = (p - min.as_dvec3()).abs().min((p - max.as_dvec3()).abs());
             let beyond = (min.as_dvec3() - p).max(p - max.as_dvec3()).max(DVec3::ZERO).length();
             let largest = nearer.max_element();

@@ -46,7 +46,8 @@ pub fn jittered(rng: &mut impl Rng, vector: Vec3, most: i32) -> Vec3 {
     Vec3::from_array(vector.to_array().map(|value| nudged(value, rng.random_range(-most..=most))))
 }
 
-/// A ray of a random class at the shape. `size` is that of the shape, `reach` how many sizes away rays start at the most.
+/// A ray of a random class at the shape. `size` is that of the shape, `reach` how many sizes away rays start at the
+/// most.
 pub fn ray(rng: &mut impl Rng, shape: &Shape, size: f64, reach: f64) -> (Class, Trial) {
     let mut pick = rng.random_range(0..100);
     let class = SHARES

@@ -1,4 +1,5 @@
-//! What holds gsdf to its promises: an exact reference, generators of solids and rays, and the properties built on them.
+//! What holds gsdf to its promises: an exact reference, generators of solids and rays, and the properties built on
+//! them.
 
 pub mod arrangements;
 pub mod corpus;

@@ -118,8 +118,8 @@ impl Tree {
         joined.tagged(own)
     }
 
-    /// Which leaf makes a crossing at which the membership of all that is tagged `changed` changes: the one with the lowest number of those whose own change is passed on by
-    /// every operator above them.
+    /// Which leaf makes a crossing at which the membership of all that is tagged `changed` changes: the one with the
+    /// lowest number of those whose own change is passed on by every operator above them.
     #[must_use]
     pub fn maker(&self, changed: &[u32]) -> Option<u32> {
         self.maker_from(changed, &mut 0, &mut OPERATORS.clone())
@@ -260,9 +260,11 @@ impl Posed {
         (line.inside_at(0.0), crossings)
     }
 
-    /// The size of the numbers that meet where a ray crosses leaf number `leaf` at `t`: what rounding errors are relative to, a length in the world.
+    /// The size of the numbers that meet where a ray crosses leaf number `leaf` at `t`: what rounding errors are
+    /// relative to, a length in the world.
     ///
-    /// The origin is taken into the frame first, which adds the pose's translation; an affine map shrinks the solid's own numbers at most by its stretch.
+    /// The origin is taken into the frame first, which adds the pose's translation; an affine map shrinks the solid's
+    /// own numbers at most by its stretch.
     #[must_use]
     pub fn scale_at(&self, ray: &Ray, leaf: u32, t: f64) -> f64 {
         let outside = ray.origin().as_dvec3().length() + self.pose.origin().as_dvec3().length();
@@ -280,8 +282,9 @@ impl Posed {
         columns.iter().map(|entry| entry * entry).sum::<f64>().sqrt().min(1024.0)
     }
 
-    /// Whether a computed crossing is as deep as that of the reference, or within `roundings` rounding errors of the leaf's surface, where that is met at so flat an angle that
-    /// the depth is not better known; and in the same sense.
+    /// Whether a computed crossing is as deep as that of the reference, or within `roundings` rounding errors of the
+    /// leaf's surface, where that is met at so flat an angle that the depth is not better known; and in the same
+    /// sense.
     fn is_same_place(&self, ray: &Ray, found: &Crossing<f32>, expected: &Expected, roundings: f64) -> bool {
         let t = f64::from(found.t);
         let within = roundings * ROUNDOFF * self.scale_at(ray, expected.leaf, t);
@@ -289,7 +292,8 @@ impl Posed {
         found.entering == expected.entering && (deep || self.is_near_leaf(ray, expected.leaf, t, roundings))
     }
 
-    /// Whether the point of the ray at `t` is within `roundings` rounding errors of the surface of leaf number `leaf`.
+    /// Whether the point of the ray at `t` is within `roundings` rounding errors of the surface of leaf number
+    /// `leaf`.
     #[must_use]
     pub fn is_near_leaf(&self, ray: &Ray, leaf: u32, t: f64, roundings: f64) -> bool {
         let point = &ExactVec3::from(ray.origin()) + &ExactVec3::from(ray.direction()).times(&Exact::from(t));
@@ -300,7 +304,8 @@ impl Posed {
         shape.exact(offset).contains(local.clone()) && !shape.exact(-offset).contains(local)
     }
 
-    /// Whether the computed answer is that of the reference: inside or not at the start; and number, depth, sense and leaf of all crossings.
+    /// Whether the computed answer is that of the reference: inside or not at the start; and number, depth, sense and
+    /// leaf of all crossings.
     #[must_use]
     pub fn agrees(&self, ray: &Ray, computed: &(bool, Vec<Crossing<f32>>), roundings: f64) -> bool {
         let expected = self.expected(&ray.origin().into(), ray.direction());
@@ -321,10 +326,12 @@ impl Posed {
         starts_inside == inside && found.len() == expected.len() && found.iter().zip(expected).all(is_same)
     }
 
-    /// Whether the computed answer is the right one for some ray that is parallel to this one and at most `roundings` rounding errors beside it.
+    /// Whether the computed answer is the right one for some ray that is parallel to this one and at most `roundings`
+    /// rounding errors beside it.
     ///
-    /// The surfaces are moved by nothing, so those that coincide go on doing so: this excuses what happens at an edge or a silhouette, and no skin on a shared face. Where several leaves
-    /// meet at the edge, any that is near may be named.
+    /// The surfaces are moved by nothing, so those that coincide go on doing so: this excuses what happens at an edge
+    /// or a silhouette, and no skin on a shared face. Where several leaves meet at the edge, any that is near may be
+    /// named.
     #[must_use]
     pub fn agrees_with_neighbour(&self, ray: &Ray, computed: &(bool, Vec<Crossing<f32>>), roundings: f64) -> bool {
         let farthest = computed.1.last().map_or(0.0, |crossing| f64::from(crossing.t));

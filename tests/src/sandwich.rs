@@ -1,4 +1,5 @@
-//! Backward error, measured with exact arithmetic: by how much a surface would have to move for a computed span to be right.
+//! Backward error, measured with exact arithmetic: by how much a surface would have to move for a computed span to be
+//! right.
 
 use crate::reference::{Exact, ExactVec3, Root};
 use crate::shape::Shape;
@@ -53,8 +54,9 @@ impl Trial {
         self.origin.as_dvec3().length() + self.shape.extent() + travelled
     }
 
-    /// How many rounding errors explain a computed span: the least power of two `k`, from 1/4 to 2^20, such that wherever it disagrees with the exact one the point of the ray
-    /// is within `k` rounding errors of the surface. `roundoff` is that of the arithmetic.
+    /// How many rounding errors explain a computed span: the least power of two `k`, from 1/4 to 2^20, such that
+    /// wherever it disagrees with the exact one the point of the ray is within `k` rounding errors of the surface.
+    /// `roundoff` is that of the arithmetic.
     #[must_use]
     pub fn roundings(&self, computed: (f64, f64), roundoff: f64) -> f64 {
         let exact = self
@@ -92,7 +94,8 @@ fn point_at(origin: Vec3, direction: Vec3, t: f64) -> ExactVec3 {
     &ExactVec3::from(origin) + &ExactVec3::from(direction).times(&Exact::from(t))
 }
 
-/// Parameters at which two sets of spans disagree on membership, a few in each interval in which they do, and whether the first set is inside there.
+/// Parameters at which two sets of spans disagree on membership, a few in each interval in which they do, and whether
+/// the first set is inside there.
 #[must_use]
 pub fn disagreements(first: &[(f64, f64)], second: &[(f64, f64)]) -> Vec<(f64, bool)> {
     let mut ends = vec![-BEYOND, BEYOND];

@@ -1,4 +1,5 @@
-//! Scenes cut to what a tile of a picture can see, so that full-size pictures of large scenes can be compared in seconds.
+//! Scenes cut to what a tile of a picture can see, so that full-size pictures of large scenes can be compared in
+//! seconds.
 
 use glam::DVec3;
 use gsdf_nostd::{Bounds, Node, Raster, RayError, Solid};
@@ -67,7 +68,8 @@ fn start_of_last(nodes: &[Node]) -> usize {
     start
 }
 
-/// The program of the parts that rays through the pixels from `from` to before `to` may meet; empty where there is none.
+/// The program of the parts that rays through the pixels from `from` to before `to` may meet; empty where there is
+/// none.
 ///
 /// # Errors
 /// Where the camera's rays are none.

@@ -1,4 +1,5 @@
-//! Random expressions over the spans of one ray, and what is true of them by definition: the oracles share nothing with the library's evaluators.
+//! Random expressions over the spans of one ray, and what is true of them by definition: the oracles share nothing
+//! with the library's evaluators.
 
 use core::fmt::Debug;
 use glam::{Vec3, vec3};
@@ -82,7 +83,8 @@ impl Tree {
         Self::Complement(self.into())
     }
 
-    /// A tree of so many leaves, numbered from left to right, that no postfix evaluation needs more than 32 operands for.
+    /// A tree of so many leaves, numbered from left to right, that no postfix evaluation needs more than 32 operands
+    /// for.
     pub fn random(rng: &mut impl Rng, leaves: usize) -> Self {
         loop {
             let tree = Self::grown(rng, 0, leaves);
@@ -117,7 +119,8 @@ impl Tree {
         }
     }
 
-    /// The same expression with the operands of about half of its unions and intersections swapped; leaves keep their numbers.
+    /// The same expression with the operands of about half of its unions and intersections swapped; leaves keep their
+    /// numbers.
     #[must_use]
     pub fn shuffled(&self, rng: &mut impl Rng) -> Self {
         let keep = rng.random_range(0..2) == 0;
@@ -201,7 +204,8 @@ impl Tree {
         }
     }
 
-    /// All crossings from -inf to inf: membership compared between every two neighbouring pieces into which the ends of spans cut the line.
+    /// All crossings from -inf to inf: membership compared between every two neighbouring pieces into which the ends
+    /// of spans cut the line.
     #[must_use]
     pub fn crossings<T: Number>(&self, spans: &[Span<T>]) -> Vec<TrueCrossing<T>> {
         let ends = finite_ends(spans);
@@ -225,7 +229,8 @@ impl Tree {
         found
     }
 
-    /// The leaves to blame for a change between two places: those of all operands that change, if the whole does; a leaf blames itself.
+    /// The leaves to blame for a change between two places: those of all operands that change, if the whole does; a
+    /// leaf blames itself.
     fn blame<T: Number>(&self, spans: &[Span<T>], before: T, after: T, culprits: &mut Vec<usize>) {
         if self.contains(spans, before) == self.contains(spans, after) {
             return;
@@ -303,7 +308,8 @@ fn within<T: Number>(low: T, high: T) -> T {
     if middle < high { middle } else { low }
 }
 
-/// A span from -1 to 10 or so, one in six of them a special case; `grid` picks ends that are whole, so that many coincide.
+/// A span from -1 to 10 or so, one in six of them a special case; `grid` picks ends that are whole, so that many
+/// coincide.
 pub fn random_span<T: Number>(rng: &mut impl Rng, grid: bool) -> Span<T> {
     let mut place = |low: f64, high: f64| {
         let place = rng.random_range(low..high);
@@ -339,7 +345,8 @@ pub fn random_solid(rng: &mut impl Rng) -> Leaf {
     .unwrap_or_else(|error| unreachable!("whole numbers are in range: {error}"))
 }
 
-/// A ray through a place on the grid or half way, along it or aslant; the largest component is 1, so that a line sees it as it is.
+/// A ray through a place on the grid or half way, along it or aslant; the largest component is 1, so that a line sees
+/// it as it is.
 pub fn random_ray(rng: &mut impl Rng) -> (Vec3, Vec3) {
     let mut halves = |most: i8| f32::from(rng.random_range(-most..=most)) * 0.5;
     let place = vec3(halves(5), halves(5), halves(5));

@@ -9,7 +9,8 @@ use rand_pcg::Pcg64;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 
-/// How many rounding errors, of the size of the numbers that meet there, a surface may seem to be off. The largest ever seen is 4.
+/// How many rounding errors, of the size of the numbers that meet there, a surface may seem to be off. The largest
+/// ever seen is 4.
 const ALLOWED: f64 = 8.0;
 
 const RAYS: u64 = 10_000;
@@ -31,7 +32,8 @@ fn share(count: usize) -> f64 {
     100.0 * count as f64 / RAYS as f64
 }
 
-/// A corpus that had stopped aiming would prove nothing: it must hit, start inside, graze, run parallel and start on surfaces often enough.
+/// A corpus that had stopped aiming would prove nothing: it must hit, start inside, graze, run parallel and start on
+/// surfaces often enough.
 #[test]
 fn the_corpus_keeps_its_quotas() {
     for (kind, name) in KINDS.iter().enumerate() {
@@ -80,7 +82,8 @@ fn check(roundoff: f64, span: impl Fn(&Trial) -> (f64, f64) + Sync) {
     }
 }
 
-/// Entry, exit and the decision between hit and miss: wherever the computed span disagrees with the exact one, the ray is within rounding of the surface.
+/// Entry, exit and the decision between hit and miss: wherever the computed span disagrees with the exact one, the
+/// ray is within rounding of the surface.
 #[test]
 fn spans_in_single_precision_are_right_to_rounding() {
     check(ROUNDOFF, |trial| computed_span(trial, 0.0_f32));

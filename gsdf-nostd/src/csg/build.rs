@@ -3,14 +3,17 @@
 /// Writes a `const` [`Csg`](crate::Csg) from a nested expression, counting its nodes.
 ///
 /// An expression is one of
-/// - `Solid::constructor(arguments)`: a leaf; any fallible `const` constructor of a type that is a variant, of the same name, of the leaf type;
+/// - `Solid::constructor(arguments)`: a leaf; any fallible `const` constructor of a type that is a variant, of the
+///   same name, of the leaf type;
 /// - `NAME`: another `const` program with the same leaf type;
 /// - `union(a, b, ...)`, `intersection(a, b, ...)`: of two or more;
 /// - `difference(a, b, ...)`: the first without all the others;
 /// - `complement(a)`: all that is not in `a`: the same surface, the other side;
-/// - `posed(frame, a)`: `a` in a frame of its own, 1 or above, posed at run time by [`Program::posed`](crate::Program::posed).
+/// - `posed(frame, a)`: `a` in a frame of its own, 1 or above, posed at run time by
+///   [`Program::posed`](crate::Program::posed).
 ///
-/// A leaf type other than [`Leaf`](crate::Leaf) is named as in `const NAME: Type = ...`. A parameter that is refused is a compile error that says why.
+/// A leaf type other than [`Leaf`](crate::Leaf) is named as in `const NAME: Type = ...`. A parameter that is refused
+/// is a compile error that says why.
 ///
 /// ```
 /// use gsdf_nostd::{CappedCylinder, Cuboid, Sphere, csg};

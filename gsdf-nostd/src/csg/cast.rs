@@ -8,7 +8,8 @@ use crate::ray::{Ray, RayError};
 use glam::Vec3;
 
 impl<const N: usize, L: Solid> Csg<N, L> {
-    /// The first crossing of the boundary within the ray's range: distance, point, normal, leaf, entering or leaving. `None` where there is none.
+    /// The first crossing of the boundary within the ray's range: distance, point, normal, leaf, entering or leaving.
+    /// `None` where there is none.
     ///
     /// ```
     /// use gsdf_nostd::{Ray, Sphere, csg};
@@ -32,8 +33,9 @@ impl<const N: usize, L: Solid> Csg<N, L> {
         Ok(self.along(Departure::new(hit, direction)?).cast())
     }
 
-    /// The generalized signed distance function `φ_G(v, p)`: how far from `p` along `v` to the next crossing of the boundary, positive outside, negative inside, infinite where
-    /// there is none; NaN unless the two make a [`Ray`]. Exact: the march, not one evaluation of minima and maxima, which is only a bound.
+    /// The generalized signed distance function `φ_G(v, p)`: how far from `p` along `v` to the next crossing of the
+    /// boundary, positive outside, negative inside, infinite where there is none; NaN unless the two make a [`Ray`].
+    /// Exact: the march, not one evaluation of minima and maxima, which is only a bound.
     ///
     /// In units of the length of `v`: a distance where `v` is of unit length.
     #[must_use]

@@ -3,7 +3,8 @@
 use super::node::Node;
 use core::fmt;
 
-/// How many operands a program may hold at once. Every program of up to 2^32 leaves can be written within it, by putting the heavier operand of each node first.
+/// How many operands a program may hold at once. Every program of up to 2^32 leaves can be written within it, by
+/// putting the heavier operand of each node first.
 pub(super) const MAX_DEPTH: usize = 32;
 
 /// The most leaves a program may have: their numbers must be exact in `f32` lanes.

@@ -7,7 +7,8 @@ use crate::leaf::Leaf;
 
 /// A program of `N` nodes being written, solid by solid and operator by operator, in `const` or at run time.
 ///
-/// Mistakes are kept and reported by [`finish`](Draft::finish), so that the steps can be chained. [`csg!`](crate::csg!) writes such a chain from a nested expression and counts the nodes.
+/// Mistakes are kept and reported by [`finish`](Draft::finish), so that the steps can be chained.
+/// [`csg!`](crate::csg!) writes such a chain from a nested expression and counts the nodes.
 ///
 /// ```
 /// use gsdf_nostd::{Csg, Draft, Leaf, Node, Sphere};

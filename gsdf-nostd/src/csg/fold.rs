@@ -33,8 +33,8 @@ impl<T: Real> Operand for Signed<T> {
     }
 }
 
-/// What each leaf contributes, in the order of the leaves. A trait and not a closure: closures are outlined from functions compiled for a wider
-/// instruction set.
+/// What each leaf contributes, in the order of the leaves. A trait and not a closure: closures are outlined from
+/// functions compiled for a wider instruction set.
 pub(super) trait Reading<L> {
     type Operand: Operand;
     fn leaf(&mut self, solid: &L, frame: u16) -> Self::Operand;
@@ -43,7 +43,8 @@ pub(super) trait Reading<L> {
 /// Evaluates a checked program; `filler` is any operand.
 #[inline(always)]
 pub(super) fn fold<L, R: Reading<L>>(nodes: &[Node<L>], filler: R::Operand, reading: &mut R) -> R::Operand {
-    // Packets are wide, and filling a deep stack of them costs more than a small program. A program of 15 nodes has at most 8 leaves.
+    // Packets are wide, and filling a deep stack of them costs more than a small program. A program of 15 nodes has
+    // at most 8 leaves.
     if R::Operand::LANES > 1 && nodes.len() < 16 {
         fold_within::<8, L, R>(nodes, filler, reading)
     } else {

@@ -9,7 +9,8 @@ use crate::transform::Transform;
 
 /// What is known of the place where a line starts: how the leaves look from there.
 pub trait Footing<L: Solid, T: Real>: Copy {
-    /// Leaf number `number` as the line sees it from its origin; both are in the leaf's frame, which `pose` puts into the world.
+    /// Leaf number `number` as the line sees it from its origin; both are in the leaf's frame, which `pose` puts into
+    /// the world.
     fn seen(self, number: u32, solid: &L, line: &Line<T>, pose: Option<&Transform>) -> L::Seen<T>;
 
     /// The span of the same leaf.
@@ -35,7 +36,8 @@ impl<L: Solid, T: Real> Footing<L, T> for Anywhere {
     }
 }
 
-/// The place is the one from which [`Program::seen_from`](super::Program::seen_from) has seen all leaves: what depends on the origin alone is done.
+/// The place is the one from which [`Program::seen_from`](super::Program::seen_from) has seen all leaves: what
+/// depends on the origin alone is done.
 #[derive(Debug)]
 pub struct SeenFrom<'s, S>(pub &'s [S]);
 

@@ -14,7 +14,8 @@ pub struct Hit {
     pub t: f32,
     /// The point, each coordinate with the rounding of `t` and two more.
     pub point: Vec3,
-    /// The unit normal of the surface, outward from the solid: against the ray where it enters, along it where it leaves.
+    /// The unit normal of the surface, outward from the solid: against the ray where it enters, along it where it
+    /// leaves.
     pub normal: Vec3,
     /// The number of the leaf whose surface it is.
     pub leaf: u32,

@@ -44,7 +44,8 @@ impl<T: Real> Framed<T> {
 }
 
 impl<L: Solid> Program<'_, L> {
-    /// All leaves, in order, as seen from one origin in the world: for many lines from there. To be used as [`SeenFrom`](super::SeenFrom).
+    /// All leaves, in order, as seen from one origin in the world: for many lines from there. To be used as
+    /// [`SeenFrom`](super::SeenFrom).
     pub fn seen_from<S: Lane>(&self, origin: V3<S>) -> impl Iterator<Item = L::Seen<S>> {
         self.nodes.iter().filter_map(move |node| match node {
             Node::Leaf { solid, frame } => {
@@ -70,7 +71,8 @@ impl<L: Solid> Program<'_, L> {
         }
     }
 
-    /// Third stage: the surface at the crossing `t`, which [`march`](super::march::march) found, with its normal outward from the program. Second come that and [`attribute`].
+    /// Third stage: the surface at the crossing `t`, which [`march`](super::march::march) found, with its normal
+    /// outward from the program. Second come that and [`attribute`].
     ///
     /// Lanes without a crossing get the reversed direction for a normal, and leaf +inf.
     #[inline(always)]

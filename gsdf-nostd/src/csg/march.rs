@@ -18,8 +18,9 @@ pub struct March<T: Real> {
 
 /// Marches from `start >= 0` to the first crossing of the program's boundary, exactly.
 ///
-/// Like sphere tracing it repeats `t <- |Φ(t)|`; but every step lands on a leaf root, none oversteps a boundary, and it ends by the sign of `Φ` turning, not by an epsilon.
-/// The result is a leaf root bit for bit. At most one sweep per distinct root ahead and one to confirm: `2 leaves + 1`.
+/// Like sphere tracing it repeats `t <- |Φ(t)|`; but every step lands on a leaf root, none oversteps a boundary, and
+/// it ends by the sign of `Φ` turning, not by an epsilon. The result is a leaf root bit for bit. At most one sweep
+/// per distinct root ahead and one to confirm: `2 leaves + 1`.
 ///
 /// Lanes in which nothing is asked may start at +inf: they are done at once.
 #[inline(always)]

@@ -34,10 +34,11 @@ impl<L: Solid, T: Real> Reading<L> for AtPoint<'_, '_, L, T> {
 }
 
 impl<L: Solid> Program<'_, L> {
-    /// The standard signed distance at `p`, in any arithmetic: minimum for union, maximum for intersection, negation for complement.
+    /// The standard signed distance at `p`, in any arithmetic: minimum for union, maximum for intersection, negation
+    /// for complement.
     ///
-    /// The sign is the true membership. The magnitude never exceeds the distance to the surface; it equals it outside of unions of solids, and is a lower bound elsewhere, and where a
-    /// pose is neither rigid nor a uniform scaling.
+    /// The sign is the true membership. The magnitude never exceeds the distance to the surface; it equals it outside
+    /// of unions of solids, and is a lower bound elsewhere, and where a pose is neither rigid nor a uniform scaling.
     #[inline(always)]
     pub fn distance<T: Real>(&self, p: V3<T>) -> T {
         let mut reading = AtPoint {
@@ -50,7 +51,8 @@ impl<L: Solid> Program<'_, L> {
         fold(self.nodes, Signed(p.x), &mut reading).0
     }
 
-    /// The standard signed distance function `φ(p)`, negative inside; NaN unless `p` is finite and within ±2^30. See [`distance`](Self::distance) for what the magnitude is.
+    /// The standard signed distance function `φ(p)`, negative inside; NaN unless `p` is finite and within ±2^30. See
+    /// [`distance`](Self::distance) for what the magnitude is.
     #[must_use]
     pub fn sdf(&self, p: Vec3) -> f32 {
         if is_in_range(p) { self.distance(V3::from(p)) } else { f32::NAN }
@@ -64,7 +66,8 @@ impl<L: Solid> Program<'_, L> {
 }
 
 impl<const N: usize, L: Solid> Csg<N, L> {
-    /// The standard signed distance function `φ(p)`, negative inside; NaN unless `p` is finite and within ±2^30. See [`Program::distance`] for what the magnitude is.
+    /// The standard signed distance function `φ(p)`, negative inside; NaN unless `p` is finite and within ±2^30. See
+    /// [`Program::distance`] for what the magnitude is.
     #[must_use]
     pub fn sdf(&self, p: Vec3) -> f32 {
         self.program().sdf(p)

@@ -7,8 +7,8 @@ use crate::transform::Transform;
 
 /// A CSG program of `N` nodes with leaves of type `L`, checked when it is made, fit to lie in flash.
 ///
-/// Written by [`csg!`](crate::csg!) at compile time, or by a [`Draft`](super::Draft) at run time. Its leaves are numbered from 0 in the order in which they stand; where surfaces
-/// coincide, the lowest number wins.
+/// Written by [`csg!`](crate::csg!) at compile time, or by a [`Draft`](super::Draft) at run time. Its leaves are
+/// numbered from 0 in the order in which they stand; where surfaces coincide, the lowest number wins.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Csg<const N: usize, L = Leaf> {
     nodes: [Node<L>; N],
@@ -16,8 +16,9 @@ pub struct Csg<const N: usize, L = Leaf> {
 }
 
 impl<const N: usize, L> Csg<N, L> {
-    /// The most sweeps over the program that any ray can take to its first crossing: one per distinct leaf root and one to confirm. (Of `N` nodes at most
-    /// `(N + 1) / 2` are leaves joined by binary operators, with two roots each.)
+    /// The most sweeps over the program that any ray can take to its first crossing: one per distinct leaf root and
+    /// one to confirm. (Of `N` nodes at most `(N + 1) / 2` are leaves joined by binary operators, with two roots
+    /// each.)
     pub const MAX_SWEEPS: usize = N + 2;
 
     /// The program of these nodes, in postfix order.
@@ -115,7 +116,8 @@ impl<'a, L> Program<'a, L> {
         self.checked.leaves
     }
 
-    /// The most sweeps over the program that any ray can take to its first crossing: one per distinct leaf root and one to confirm.
+    /// The most sweeps over the program that any ray can take to its first crossing: one per distinct leaf root and
+    /// one to confirm.
     #[must_use]
     pub const fn max_sweeps(&self) -> usize {
         2 * self.checked.leaves + 1

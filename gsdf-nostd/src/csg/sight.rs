@@ -13,7 +13,8 @@ use crate::span::Span;
 
 /// A program as one ray sees it: the spans of all leaves, each computed once.
 ///
-/// What follows are only comparisons of these numbers. `S` is the scratch memory they lie in, whose element type is the arithmetic they were computed in.
+/// What follows are only comparisons of these numbers. `S` is the scratch memory they lie in, whose element type is
+/// the arithmetic they were computed in.
 #[derive(Clone, Copy, Debug)]
 pub struct Sight<'a, L, S, R = Ray> {
     program: Program<'a, L>,
@@ -86,7 +87,8 @@ impl<'a, L: Solid, S, R: Start> Sight<'a, L, S, R> {
         self.start.ray()
     }
 
-    /// The march to the first crossing beyond the start of the ray's range, wherever it is; its parameter is that of the ray.
+    /// The march to the first crossing beyond the start of the ray's range, wherever it is; its parameter is that of
+    /// the ray.
     #[must_use]
     pub fn march<T: Lane>(&self) -> March<T>
     where
@@ -101,8 +103,8 @@ impl<'a, L: Solid, S, R: Start> Sight<'a, L, S, R> {
         }
     }
 
-    /// The generalized signed distance function `φ_G`: the distance to the next crossing, positive outside, negative inside, infinite where there is none; in units of
-    /// the direction's length, measured from the ray's origin.
+    /// The generalized signed distance function `φ_G`: the distance to the next crossing, positive outside, negative
+    /// inside, infinite where there is none; in units of the direction's length, measured from the ray's origin.
     #[must_use]
     pub fn gsdf<T: Lane>(&self) -> T
     where

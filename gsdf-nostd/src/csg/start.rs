@@ -47,8 +47,9 @@ impl Start for Ray {
 
 /// A ray that leaves a surface: it knows the leaf and the face it starts on.
 ///
-/// There its root is 0 exactly, so that a ray which leaves a solid does not meet it again at a distance of rounding errors, and one which enters it starts inside; no epsilon is asked of the
-/// caller. Leaves whose surfaces are as near as rounding can tell are treated alike.
+/// There its root is 0 exactly, so that a ray which leaves a solid does not meet it again at a distance of rounding
+/// errors, and one which enters it starts inside; no epsilon is asked of the caller. Leaves whose surfaces are as
+/// near as rounding can tell are treated alike.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Departure {
     ray: Ray,

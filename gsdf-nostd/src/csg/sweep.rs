@@ -6,11 +6,13 @@ use crate::real::{Mask, Real};
 use crate::span::Span;
 use core::slice::Iter;
 
-/// The signed absolute crossing of a program at `t`: a bound on where the ray next crosses its boundary, positive where `t` is outside, negative inside.
+/// The signed absolute crossing of a program at `t`: a bound on where the ray next crosses its boundary, positive
+/// where `t` is outside, negative inside.
 ///
-/// Minimum for union, maximum for intersection, negation for complement, of the leaves' [signed crossings](Span::signed_crossing). For every program and every
-/// `t >= 0` the sign is the true membership at `t`, the ray crosses no boundary between `t` and the magnitude, and the magnitude is a root of some leaf, bit for bit, or
-/// infinite. `spans` holds those of the leaves in order.
+/// Minimum for union, maximum for intersection, negation for complement, of the leaves' [signed
+/// crossings](Span::signed_crossing). For every program and every `t >= 0` the sign is the true membership at `t`,
+/// the ray crosses no boundary between `t` and the magnitude, and the magnitude is a root of some leaf, bit for bit,
+/// or infinite. `spans` holds those of the leaves in order.
 #[inline(always)]
 pub fn sweep<T: Real, L>(nodes: &[Node<L>], spans: &[Span<T>], t: T) -> T {
     let spans = spans.iter();
@@ -78,10 +80,13 @@ impl<T: Real> Operand for Attribution<T> {
     }
 }
 
-/// Which leaf makes the program's crossing at `t`: the one with the lowest number among those whose own crossing there makes the whole one's.
+/// Which leaf makes the program's crossing at `t`: the one with the lowest number among those whose own crossing
+/// there makes the whole one's.
 ///
-/// Not merely a leaf with a root at `t`: a surface that coincides there but is cut away, or lies within another solid, is not seen. The rule depends on the solid alone and not on the
-/// order of evaluation: where a union or an intersection changes, all its operands that change do so in its direction, and of those the lowest number is taken.
+/// Not merely a leaf with a root at `t`: a surface that coincides there but is cut away, or lies within another
+/// solid, is not seen. The rule depends on the solid alone and not on the order of evaluation: where a union or an
+/// intersection changes, all its operands that change do so in its direction, and of those the lowest number is
+/// taken.
 #[inline(always)]
 pub fn attribute<T: Real, L>(nodes: &[Node<L>], spans: &[Span<T>], t: T) -> Attribution<T> {
     let never = t.lt(t);

@@ -16,9 +16,12 @@ use glam::Vec3;
 ///
 /// It stores both caps as positions, so that a cap shared with a neighbour is one and the same plane, to the bit.
 ///
-/// - Standard: the nearer of the caps' and the side's segments in the half-plane through the axis, exact. Source: I. Quilez, Distance functions.
-/// - Along a ray: the side's span and the slab's, intersected. The side is taken from the bottom, not from an apex that may be far away or not there at all.
-/// - Accuracy: 8 rounding errors, as the [crate](crate#accuracy) counts them. Cost: that of a [`Nappe`](super::Nappe) and one division.
+/// - Standard: the nearer of the caps' and the side's segments in the half-plane through the axis, exact. Source: I.
+///   Quilez, Distance functions.
+/// - Along a ray: the side's span and the slab's, intersected. The side is taken from the bottom, not from an apex
+///   that may be far away or not there at all.
+/// - Accuracy: 8 rounding errors, as the [crate](crate#accuracy) counts them. Cost: that of a [`Nappe`](super::Nappe)
+///   and one division.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CappedCone {
     bottom: Vec3,
@@ -43,11 +46,13 @@ pub struct SeenCappedCone<T> {
 }
 
 impl CappedCone {
-    /// The cone from the disc of `bottom_radius` around `bottom` to the disc of `top_radius` around `top`, the unit vector from the one towards the other being `axis`.
+    /// The cone from the disc of `bottom_radius` around `bottom` to the disc of `top_radius` around `top`, the unit
+    /// vector from the one towards the other being `axis`.
     ///
     /// # Errors
-    /// Where a coordinate is not finite or out of range, `axis` is not of unit length or does not lead from `bottom` to `top`, these are nearer than 2^-20, or
-    /// a radius is not from 2^-20 to 2^30. (With a radius of zero it is a [`Cone`](super::Cone).)
+    /// Where a coordinate is not finite or out of range, `axis` is not of unit length or does not lead from `bottom`
+    /// to `top`, these are nearer than 2^-20, or a radius is not from 2^-20 to 2^30. (With a radius of zero it is a
+    /// [`Cone`](super::Cone).)
     pub const fn new(bottom: Vec3, top: Vec3, axis: Vec3, bottom_radius: f32, top_radius: f32) -> Result<Self, Invalid> {
         match (
             ends(NAMES, bottom, top, axis),
@@ -66,7 +71,8 @@ impl CappedCone {
         }
     }
 
-    /// The cone from the disc of `bottom_radius` around `bottom` to the disc of `top_radius` around `top`; not `const`, because the axis takes a square root.
+    /// The cone from the disc of `bottom_radius` around `bottom` to the disc of `top_radius` around `top`; not
+    /// `const`, because the axis takes a square root.
     ///
     /// # Errors
     /// As for [`new`](Self::new).

@@ -11,13 +11,17 @@ use crate::toward::{Toward, reciprocal_speed};
 use crate::vec3::V3;
 use glam::Vec3;
 
-/// The cylinder between two caps: the points nearer to an axis than `radius`, between the planes through `bottom` and `top` across it.
+/// The cylinder between two caps: the points nearer to an axis than `radius`, between the planes through `bottom` and
+/// `top` across it.
 ///
 /// It stores both caps as positions, so that a cap shared with a neighbour is one and the same plane, to the bit.
 ///
-/// - Standard: with `x = |(p - c) x a| - r` and `y` the height over the nearer cap, `|max((x, y), 0)| + min(max(x, y), 0)`, exact. Source: I. Quilez, Distance functions.
-/// - Along a ray: the side's span and the slab's, intersected. (The paper takes the maximum of three distances, which lacks the test whether the spans overlap.)
-/// - Accuracy: 4.5 units roundoff times the conditioning of the inputs. Cost: that of a [`Cylinder`] and one division.
+/// - Standard: with `x = |(p - c) x a| - r` and `y` the height over the nearer cap, `|max((x, y), 0)| + min(max(x,
+///   y), 0)`, exact. Source: I. Quilez, Distance functions.
+/// - Along a ray: the side's span and the slab's, intersected. (The paper takes the maximum of three distances, which
+///   lacks the test whether the spans overlap.)
+/// - Accuracy: 8 rounding errors, as the [crate](crate#accuracy) counts them. Cost: that of a [`Cylinder`] and one
+///   division.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CappedCylinder {
     side: Cylinder,
@@ -39,11 +43,12 @@ pub struct SeenCappedCylinder<T> {
 impl CappedCylinder {
     /// The cylinder of `radius` from `bottom` to `top`, the unit vector from the one towards the other being `axis`.
     ///
-    /// The axis is a parameter of its own so that this can be `const`, and so that cylinders in a row can share it exactly; [`between`](Self::between) computes it.
+    /// The axis is a parameter of its own so that this can be `const`, and so that cylinders in a row can share it
+    /// exactly; [`between`](Self::between) computes it.
     ///
     /// # Errors
-    /// Where a coordinate is not finite or out of range, `axis` is not of unit length or does not lead from `bottom` to `top`, these are nearer than 2^-20, or
-    /// the radius is not from 2^-20 to 2^30.
+    /// Where a coordinate is not finite or out of range, `axis` is not of unit length or does not lead from `bottom`
+    /// to `top`, these are nearer than 2^-20, or the radius is not from 2^-20 to 2^30.
     pub const fn new(bottom: Vec3, top: Vec3, axis: Vec3, radius: f32) -> Result<Self, Invalid> {
         match (ends(NAMES, bottom, top, axis), length("capped cylinder radius", radius)) {
             (Ok(()), Ok(radius)) => Ok(Self {

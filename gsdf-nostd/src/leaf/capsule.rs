@@ -14,10 +14,13 @@ use glam::Vec3;
 
 /// The points nearer to a segment than `radius`: the paper's spherical capped cylinder.
 ///
-/// - Standard: the distance from the nearest point of the segment, less the radius, exact. Source: I. Quilez, Distance functions.
-/// - Along a ray: the union of two whole spheres and the cylinder between them is convex, so the least entry and the last exit of the three. Whole spheres overlap the cylinder:
-///   there is no seam to miss. (The paper's hemispheres, composed by minimum and maximum, are wrong beyond the end planes.)
-/// - Accuracy: 4.5 units roundoff times the conditioning of the inputs. Cost: two spheres and a capped cylinder.
+/// - Standard: the distance from the nearest point of the segment, less the radius, exact. Source: I. Quilez,
+///   Distance functions.
+/// - Along a ray: the union of two whole spheres and the cylinder between them is convex, so the least entry and the
+///   last exit of the three. Whole spheres overlap the cylinder: there is no seam to miss. (The paper's hemispheres,
+///   composed by minimum and maximum, are wrong beyond the end planes.)
+/// - Accuracy: 8 rounding errors, as the [crate](crate#accuracy) counts them. Cost: two spheres and a capped
+///   cylinder.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Capsule {
     ends: [Sphere; 2],
@@ -38,7 +41,8 @@ impl Capsule {
     /// The capsule around the segment from `a` to `b`.
     ///
     /// # Errors
-    /// Where a coordinate is not finite or out of range, the ends are nearer than 2^-20 (then it is a [`Sphere`]), or the radius is not from 2^-20 to 2^30.
+    /// Where a coordinate is not finite or out of range, the ends are nearer than 2^-20 (then it is a [`Sphere`]), or
+    /// the radius is not from 2^-20 to 2^30.
     pub const fn new(a: Vec3, b: Vec3, radius: f32) -> Result<Self, Invalid> {
         match (point("capsule a", a), point("capsule b", b), length("capsule radius", radius)) {
             (Ok(a), Ok(b), Ok(radius)) => {

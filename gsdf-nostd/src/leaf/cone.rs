@@ -15,9 +15,12 @@ use glam::Vec3;
 ///
 /// It stores the base as a position, so that a base shared with a neighbour is one and the same plane, to the bit.
 ///
-/// - Standard: the nearer of the base's and the side's segment in the half-plane through the axis, exact. Source: I. Quilez, Distance functions.
-/// - Along a ray: the nappe's span and the half-space's, intersected. (The paper calls it a union; it is the intersection, and of a single nappe.)
-/// - Accuracy: 8 rounding errors, as the [crate](crate#accuracy) counts them. Cost: that of a [`Nappe`](super::Nappe) and one division.
+/// - Standard: the nearer of the base's and the side's segment in the half-plane through the axis, exact. Source: I.
+///   Quilez, Distance functions.
+/// - Along a ray: the nappe's span and the half-space's, intersected. (The paper calls it a union; it is the
+///   intersection, and of a single nappe.)
+/// - Accuracy: 8 rounding errors, as the [crate](crate#accuracy) counts them. Cost: that of a [`Nappe`](super::Nappe)
+///   and one division.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cone {
     apex: Vec3,
@@ -39,11 +42,12 @@ pub struct SeenFiniteCone<T> {
 }
 
 impl Cone {
-    /// The cone from `apex` to the disc of `radius` around `base`, the unit vector from the one towards the other being `axis`.
+    /// The cone from `apex` to the disc of `radius` around `base`, the unit vector from the one towards the other
+    /// being `axis`.
     ///
     /// # Errors
-    /// Where a coordinate is not finite or out of range, `axis` is not of unit length or does not lead from `apex` to `base`, these are nearer than 2^-20, or
-    /// the radius is not from 2^-20 to 2^30.
+    /// Where a coordinate is not finite or out of range, `axis` is not of unit length or does not lead from `apex` to
+    /// `base`, these are nearer than 2^-20, or the radius is not from 2^-20 to 2^30.
     pub const fn new(apex: Vec3, base: Vec3, axis: Vec3, radius: f32) -> Result<Self, Invalid> {
         match (ends(NAMES, apex, base, axis), length("cone radius", radius)) {
             (Ok(()), Ok(radius)) => Ok(Self {

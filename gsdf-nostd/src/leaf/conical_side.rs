@@ -1,4 +1,5 @@
-//! The side of a cone, shared by the infinite, the finite and the capped one: a cylinder whose radius grows along its axis.
+//! The side of a cone, shared by the infinite, the finite and the capped one: a cylinder whose radius grows along its
+//! axis.
 
 use super::solid::{Ground, nowhere};
 use crate::quadratic::roots;
@@ -8,10 +9,11 @@ use crate::span::Span;
 use crate::toward::Toward;
 use crate::vec3::V3;
 
-/// The solid of the points `x` with `k |y| < r + s z`, where `z = (x - b) . a` is the height over a reference point `b` along the axis and `y` the part
-/// across it: one nappe of a cone, opening towards `a` where `s > 0`.
+/// The solid of the points `x` with `k |y| < r + s z`, where `z = (x - b) . a` is the height over a reference point
+/// `b` along the axis and `y` the part across it: one nappe of a cone, opening towards `a` where `s > 0`.
 ///
-/// `s : k` is the tangent of the half-angle; the two may have any common factor. `r / k` is the radius at the reference point, 0 where that is the apex.
+/// `s : k` is the tangent of the half-angle; the two may have any common factor. `r / k` is the radius at the
+/// reference point, 0 where that is the apex.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Profile<T> {
     pub(super) axis: V3<T>,
@@ -64,13 +66,15 @@ impl<T: Real> SeenCone<T> {
 
     /// The span of one nappe.
     ///
-    /// The ray is first re-centred at its point nearest the reference point, where nothing far away is left to cancel. With `W`, `V` the cross products
-    /// of `w`, `v` with the axis and `R = r + s w.a`, `G = s v.a` the radius there and its growth along the ray:
-    /// `A = k² V.V - G²`, `B = k² W.V - G R`, `C = k² W.W - R²` and `D = B² - A C = k² (|R V - G W|² - k² |W x V|²)`, in which no large terms cancel either.
-    /// (Where `A C <= 0` the first form is a sum.)
+    /// The ray is first re-centred at its point nearest the reference point, where nothing far away is left to
+    /// cancel. With `W`, `V` the cross products of `w`, `v` with the axis and `R = r + s w.a`, `G = s v.a` the radius
+    /// there and its growth along the ray: `A = k² V.V - G²`, `B = k² W.V - G R`, `C = k² W.W - R²` and `D = B² - A C
+    /// = k² (|R V - G W|² - k² |W x V|²)`, in which no large terms cancel either. (Where `A C <= 0` the first form is
+    /// a sum.)
     ///
-    /// A ray steeper than the side (`A < 0`) meets both nappes once, a shallower one meets one of them twice; one parallel to a generatrix has `A = 0`, which sends one root to infinity
-    /// by itself. What lies on the other nappe is cut off where `R` vanishes. A ray along the axis of a side that hardly widens sees no change at all.
+    /// A ray steeper than the side (`A < 0`) meets both nappes once, a shallower one meets one of them twice; one
+    /// parallel to a generatrix has `A = 0`, which sends one root to infinity by itself. What lies on the other nappe
+    /// is cut off where `R` vanishes. A ray along the axis of a side that hardly widens sees no change at all.
     #[inline(always)]
     pub(super) fn span(&self, profile: &Profile<T>, toward: &Toward<T>) -> Span<T> {
         let zero = self.c.splat_like(0.0);
@@ -100,7 +104,8 @@ impl<T: Real> SeenCone<T> {
         if nowhere(steep | shallow | within) {
             return Span::empty_like(zero);
         }
-        // A steep ray always meets the cone; through the apex both roots coincide, and a least positive number keeps them numbers.
+        // A steep ray always meets the cone; through the apex both roots coincide, and a least positive number keeps
+        // them numbers.
         let least = plain.max(zero.splat_like(f32::MIN_POSITIVE));
         let d = T::select(steep & d.le(zero), least, d);
         let (first, last) = roots(zero.splat_like(1.0) / a, b, c, d);
@@ -116,7 +121,8 @@ impl<T: Real> SeenCone<T> {
         let ours = !flat | zero.lt(radius);
 
         let (enter, exit) = (enter + shift, exit + shift);
-        // From a point of the side one of the roots is 0: the entry if the ray goes inward there, the exit if outward.
+        // From a point of the side one of the roots is 0: the entry if the ray goes inward there, the exit if
+        // outward.
         let on = self.c.eq(zero) & zero.lt(profile.r + profile.s * self.w.dot(profile.axis));
         let inward = T::select(steep, -growth, b - a * shift).lt(zero);
         let enter = T::select(on & inward, zero, enter);
@@ -142,8 +148,9 @@ impl<T: Real> SeenCone<T> {
 
 /// The standard signed distance to a capped cone, in the half-plane through its axis.
 ///
-/// `across` is the distance from the axis, `up` the height over the first cap and `height` that of the second; the caps have radii `first` and `second`.
-/// The nearer of two segments, the cap's and the side's. Source: I. Quilez, Distance functions (capped cone).
+/// `across` is the distance from the axis, `up` the height over the first cap and `height` that of the second; the
+/// caps have radii `first` and `second`. The nearer of two segments, the cap's and the side's. Source: I. Quilez,
+/// Distance functions (capped cone).
 #[inline(always)]
 pub(super) fn frustum_distance<T: Real>(across: T, up: T, height: T, first: T, second: T) -> T {
     let (zero, one) = (across.splat_like(0.0), across.splat_like(1.0));

@@ -10,14 +10,19 @@ use crate::toward::Toward;
 use crate::vec3::V3;
 use glam::Vec3;
 
-/// The box of the points between two corners, with faces parallel to the coordinate planes of its frame; turn it with a [`Transform`](crate::Transform).
+/// The box of the points between two corners, with faces parallel to the coordinate planes of its frame; turn it with
+/// a [`Transform`](crate::Transform).
 ///
-/// It stores the positions of its faces rather than a centre and a size, so that a face shared with a neighbour is one and the same number.
+/// It stores the positions of its faces rather than a centre and a size, so that a face shared with a neighbour is
+/// one and the same number.
 ///
-/// - Standard: with `d = |p - c| - h` by components, `|max(d, 0)| + min(max(d), 0)`, exact. Source: I. Quilez, Distance functions.
-/// - Along a ray: the last entry into and the first exit from three slabs (T. Kay, J. Kajiya, Ray Tracing Complex Scenes, 1986). (The paper's three planes at the nearest corner bound
-///   an octant: the missing test, entry before exit, turns misses into hits.)
-/// - Accuracy: 8 rounding errors, as the [crate](crate#accuracy) counts them. Cost: six products; the three divisions belong to the ray.
+/// - Standard: with `d = |p - c| - h` by components, `|max(d, 0)| + min(max(d), 0)`, exact. Source: I. Quilez,
+///   Distance functions.
+/// - Along a ray: the last entry into and the first exit from three slabs (T. Kay, J. Kajiya, Ray Tracing Complex
+///   Scenes, 1986). (The paper's three planes at the nearest corner bound an octant: the missing test, entry before
+///   exit, turns misses into hits.)
+/// - Accuracy: 8 rounding errors, as the [crate](crate#accuracy) counts them. Cost: six products; the three divisions
+///   belong to the ray.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cuboid {
     min: Vec3,
@@ -37,7 +42,8 @@ impl Cuboid {
     /// The box from corner `min` to corner `max`.
     ///
     /// # Errors
-    /// Where a coordinate is not finite or out of range, or `max` does not exceed `min` by at least 2^-20 along every axis.
+    /// Where a coordinate is not finite or out of range, or `max` does not exceed `min` by at least 2^-20 along every
+    /// axis.
     pub const fn new(min: Vec3, max: Vec3) -> Result<Self, Invalid> {
         match (point("box min", min), point("box max", max)) {
             (Ok(_), Ok(_)) => {}

@@ -13,10 +13,12 @@ use glam::Vec3;
 /// The infinite cylinder of the points nearer to an axis than `radius`.
 ///
 /// - Standard: `|(p - c) x a| - r`, exact. (The paper's takes the perpendicular of the ray instead of the point.)
-/// - Along a ray, with `w = p - c`, `W = w x a` and `V = v x a`: `A = V.V`, `B = W.V`, `C = W.W - r² a.a` and, with `L = W - (B/A) V`, `D = A (r² a.a - L.L)`, which is the sphere's
-///   discriminant in the plane across the axis. Cross products, because an axis that is not quite of unit length then does no harm. A ray that tilts less than
+/// - Along a ray, with `w = p - c`, `W = w x a` and `V = v x a`: `A = V.V`, `B = W.V`, `C = W.W - r² a.a` and, with
+///   `L = W - (B/A) V`, `D = A (r² a.a - L.L)`, which is the sphere's discriminant in the plane across the axis.
+///   Cross products, because an axis that is not quite of unit length then does no harm. A ray that tilts less than
 ///   2^-32 against the axis is taken as parallel to it: inside all the way or never.
-/// - Accuracy: 4.5 units roundoff times the conditioning of the inputs. Cost: two cross products, one square root, two divisions.
+/// - Accuracy: 8 rounding errors, as the [crate](crate#accuracy) counts them. Cost: two cross products, one square
+///   root, two divisions.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cylinder {
     point: Vec3,
@@ -28,7 +30,8 @@ impl Cylinder {
     /// The cylinder around the line through `point` along the unit vector `axis`.
     ///
     /// # Errors
-    /// Where a coordinate is not finite or out of range, `axis` is not of unit length (to 2^-21 of its square), or the radius is not from 2^-20 to 2^30.
+    /// Where a coordinate is not finite or out of range, `axis` is not of unit length (to 2^-21 of its square), or
+    /// the radius is not from 2^-20 to 2^30.
     pub const fn new(at: Vec3, axis: Vec3, radius: f32) -> Result<Self, Invalid> {
         match (
             point("cylinder point", at),
@@ -97,7 +100,8 @@ impl<T: Real> SeenSide<T> {
         }
     }
 
-    /// The side seen from a point that may lie on it; `size` is `radius |axis|²`, half of what the gradient of `c` is on the surface.
+    /// The side seen from a point that may lie on it; `size` is `radius |axis|²`, half of what the gradient of `c` is
+    /// on the surface.
     #[inline(always)]
     pub(super) fn grounded(self, ground: &Ground<T>, face: f32, size: T, extent: T) -> Self {
         Self {

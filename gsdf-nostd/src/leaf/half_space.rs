@@ -10,12 +10,14 @@ use crate::toward::{Toward, reciprocal_speed};
 use crate::vec3::V3;
 use glam::Vec3;
 
-/// The half-space of the points `x` with `(x - point) . normal < 0`: the paper's plane, with the side it leaves open decided.
+/// The half-space of the points `x` with `(x - point) . normal < 0`: the paper's plane, with the side it leaves open
+/// decided.
 ///
 /// - Standard: `(p - s) . n`, exact.
-/// - Along a ray: the root is `t = -(p - s) . n / (v . n)`. (The paper prints it without the minus.) A ray parallel to the plane is inside all the way or never,
-///   a ray in the plane never.
-/// - Accuracy: 8 rounding errors, as the [crate](crate#accuracy) counts them. Cost: two scalar products, one division.
+/// - Along a ray: the root is `t = -(p - s) . n / (v . n)`. (The paper prints it without the minus.) A ray parallel
+///   to the plane is inside all the way or never, a ray in the plane never.
+/// - Accuracy: 8 rounding errors, as the [crate](crate#accuracy) counts them. Cost: two scalar products, one
+///   division.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HalfSpace {
     point: Vec3,

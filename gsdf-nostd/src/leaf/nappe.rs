@@ -12,11 +12,13 @@ use glam::Vec3;
 
 /// One nappe of an infinite cone: the points whose direction from `apex` makes less than the half-angle with `axis`.
 ///
-/// - Standard: with `q = (|y|, z)` the point in the half-plane through the axis and `g` the unit generatrix, `|q - g max(q.g, 0)|` with the sign of the side, exact.
-///   (The paper's lacks the sign, and measures from the world's origin.)
-/// - Along a ray: see the module's source for the derivation. (The paper prints a root for both nappes with a factor of 2 too many; its standard form means one nappe.)
-///   A ray parallel to a generatrix is no special case.
-/// - Accuracy: 8 rounding errors, as the [crate](crate#accuracy) counts them. Cost: five cross products, one square root, two divisions.
+/// - Standard: with `q = (|y|, z)` the point in the half-plane through the axis and `g` the unit generatrix, `|q - g
+///   max(q.g, 0)|` with the sign of the side, exact. (The paper's lacks the sign, and measures from the world's
+///   origin.)
+/// - Along a ray: see the module's source for the derivation. (The paper prints a root for both nappes with a factor
+///   of 2 too many; its standard form means one nappe.) A ray parallel to a generatrix is no special case.
+/// - Accuracy: 8 rounding errors, as the [crate](crate#accuracy) counts them. Cost: five cross products, one square
+///   root, three divisions.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Nappe {
     apex: Vec3,
@@ -32,7 +34,8 @@ impl Nappe {
     /// Radius and height are a slope, not an angle: an angle near 0 or 90 degrees would lose it.
     ///
     /// # Errors
-    /// Where a coordinate is not finite or out of range, `axis` is not of unit length, or the radius or the height is not from 2^-20 to 2^30, or one is more than 2^20 times the other.
+    /// Where a coordinate is not finite or out of range, `axis` is not of unit length, or the radius or the height is
+    /// not from 2^-20 to 2^30, or one is more than 2^20 times the other.
     pub const fn new(apex: Vec3, axis: Vec3, radius: f32, height: f32) -> Result<Self, Invalid> {
         match (
             point("nappe apex", apex),
@@ -56,7 +59,8 @@ impl Nappe {
         }
     }
 
-    /// The nappe with a half-angle in radians, from 2^-20 to π/2 - 2^-20; not `const`, because of the sine and cosine.
+    /// The nappe with a half-angle in radians, from 2^-20 to π/2 - 2^-20; not `const`, because of the sine and
+    /// cosine.
     ///
     /// # Errors
     /// As for [`new`](Self::new), or where the angle is out of its range.

@@ -3,10 +3,11 @@
 use crate::real::Real;
 use crate::span::Span;
 
-/// The span, not yet checked for being inhabited, below a plane over which the origin has `height` and the ray gains height at a rate
-/// whose reciprocal is `per_speed` (see [`reciprocal_speed`](crate::toward::reciprocal_speed)).
+/// The span, not yet checked for being inhabited, below a plane over which the origin has `height` and the ray gains
+/// height at a rate whose reciprocal is `per_speed` (see [`reciprocal_speed`](crate::toward::reciprocal_speed)).
 ///
-/// A plane and its complement get roots of the same bits, since both factors change sign together. A ray in the plane gets NaN: a miss.
+/// A plane and its complement get roots of the same bits, since both factors change sign together. A ray in the plane
+/// gets NaN: a miss.
 #[inline(always)]
 pub(super) fn below<T: Real>(height: T, per_speed: T) -> (T, T) {
     let root = crossing(height, per_speed);
@@ -33,7 +34,8 @@ pub(super) fn slab<T: Real>(over_lower: T, over_upper: T, per_speed: T) -> Span<
     Span::between(enter, exit)
 }
 
-/// The parameter at which the ray crosses a plane. Relative error at most 2 units roundoff beyond that of its arguments.
+/// The parameter at which the ray crosses a plane. Relative error at most 2 units roundoff beyond that of its
+/// arguments.
 #[inline(always)]
 pub(super) fn crossing<T: Real>(height: T, per_speed: T) -> T {
     -height * per_speed

@@ -4,8 +4,8 @@ use super::{CappedCone, CappedCylinder, Capsule, Cone, Cuboid, Cylinder, HalfSpa
 
 /// Makes a leaf type of just the solids a program uses.
 ///
-/// A program links the formulas of its leaf type's solids and no others, so that a scene of spheres carries no cone. Any type that implements [`Solid`](crate::Solid) can be
-/// among them, also one of your own.
+/// A program links the formulas of its leaf type's solids and no others, so that a scene of spheres carries no cone.
+/// Any type that implements [`Solid`](crate::Solid) can be among them, also one of your own.
 ///
 /// ```
 /// use gsdf_nostd::{Cuboid, Csg, Sphere, csg, leaf_set};

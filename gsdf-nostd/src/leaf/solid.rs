@@ -9,21 +9,23 @@ use glam::Vec3;
 
 /// A convex solid: what a program's leaves are.
 ///
-/// A ray meets a convex solid in one span, so each solid has one closed form, in three stages: what depends on the ray's origin alone
-/// ([`seen_from`](Solid::seen_from)), what depends on its direction alone ([`Toward`]), and the rest ([`span`](Solid::span)). Rays of a pinhole camera share their origin, so
-/// the first stage runs once per image.
+/// A ray meets a convex solid in one span, so each solid has one closed form, in three stages: what depends on the
+/// ray's origin alone ([`seen_from`](Solid::seen_from)), what depends on its direction alone ([`Toward`]), and the
+/// rest ([`span`](Solid::span)). Rays of a pinhole camera share their origin, so the first stage runs once per image.
 ///
 /// Each formula is generic over the arithmetic and written once: scalar, double and packet queries run the same text.
 ///
 /// # Writing your own
-/// Implement the required methods for a `Copy` type and put it in a [`leaf_set!`](crate::leaf_set!). The contract, on which theorems and packets rely:
-/// spans are half-open and come from [`Span::between`] or its kin (no NaN; empty where a ray only touches); every arithmetic operation is one of
-/// [`Real`]'s; `span` depends on nothing but its arguments.
+/// Implement the required methods for a `Copy` type and put it in a [`leaf_set!`](crate::leaf_set!). The contract, on
+/// which theorems and packets rely: spans are half-open and come from [`Span::between`] or its kin (no NaN; empty
+/// where a ray only touches); every arithmetic operation is one of [`Real`]'s; `span` depends on nothing but its
+/// arguments.
 pub trait Solid: Copy {
     /// What of the solid depends on the ray's origin alone.
     type Seen<T: Real>: Copy;
 
-    /// The standard signed distance from `p` to the surface, negative inside: exact up to rounding, and never too large in magnitude.
+    /// The standard signed distance from `p` to the surface, negative inside: exact up to rounding, and never too
+    /// large in magnitude.
     fn distance<T: Real>(&self, p: V3<T>) -> T;
 
     /// The solid as seen from `origin`.
@@ -37,7 +39,8 @@ pub trait Solid: Copy {
     /// There the ray starts at the root 0 exactly, and its direction alone decides whether it starts inside.
     fn grounded<T: Real>(&self, seen: Self::Seen<T>, ground: &Ground<T>) -> Self::Seen<T>;
 
-    /// The parameters at which the ray is inside: enters at `enter`, leaves at `exit`, is in on the half-open span between.
+    /// The parameters at which the ray is inside: enters at `enter`, leaves at `exit`, is in on the half-open span
+    /// between.
     fn span<T: Real>(&self, seen: &Self::Seen<T>, toward: &Toward<T>) -> Span<T>;
 
     /// The surface at `t`, which is an end of [`span`](Solid::span), bit for bit.
@@ -52,14 +55,15 @@ pub trait Solid: Copy {
         self.span(&self.seen_from(line.origin), &line.toward)
     }
 
-    /// The standard signed distance function `φ(p)`: how far from `p` to the nearest point of the surface, negative inside; NaN unless `p` is finite and within ±2^30.
+    /// The standard signed distance function `φ(p)`: how far from `p` to the nearest point of the surface, negative
+    /// inside; NaN unless `p` is finite and within ±2^30.
     #[must_use]
     fn sdf(&self, p: Vec3) -> f32 {
         if is_in_range(p) { self.distance(V3::from(p)) } else { f32::NAN }
     }
 
-    /// The generalized signed distance function `φ_G(v, p)`: how far from `p` along `v` to the next crossing of the surface, positive outside, negative inside,
-    /// infinite where there is none; NaN unless the two make a [`Ray`].
+    /// The generalized signed distance function `φ_G(v, p)`: how far from `p` along `v` to the next crossing of the
+    /// surface, positive outside, negative inside, infinite where there is none; NaN unless the two make a [`Ray`].
     ///
     /// In units of the length of `v`: a distance where `v` is of unit length.
     #[must_use]
@@ -95,15 +99,17 @@ impl<T: Real> Surface<T> {
 /// What an origin is known to lie on: the face a ray leaves, and every face as near as rounding can tell.
 #[derive(Clone, Copy, Debug)]
 pub struct Ground<T> {
-    /// How far from a surface the origin may seem to be, by rounding alone, when it is on it; a length in the solid's frame.
+    /// How far from a surface the origin may seem to be, by rounding alone, when it is on it; a length in the solid's
+    /// frame.
     pub tolerance: T,
     /// The number of the face the origin is known to lie on, or -1.
     pub face: T,
 }
 
 impl<T: Real> Ground<T> {
-    /// `offset`, a measure of how far the origin is from face number `face`, or zero where the origin lies on that face. `scale` is by what `offset` exceeds
-    /// a distance near the surface, `size` the extent of the solid, which adds to the rounding error.
+    /// `offset`, a measure of how far the origin is from face number `face`, or zero where the origin lies on that
+    /// face. `scale` is by what `offset` exceeds a distance near the surface, `size` the extent of the solid, which
+    /// adds to the rounding error.
     #[inline(always)]
     pub fn settle(&self, face: f32, offset: T, scale: T, size: T) -> T {
         let zero = offset.splat_like(0.0);

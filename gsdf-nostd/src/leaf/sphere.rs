@@ -12,11 +12,13 @@ use glam::Vec3;
 /// The ball of the points nearer to `center` than `radius`.
 ///
 /// - Standard: `|p - c| - r`, exact.
-/// - Along a ray, with `w = p - c`: `A = v.v`, `B = w.v`, `C = w.w - r²`, and the discriminant from the part of `w` perpendicular to the ray, `l = w - (B/A) v`, as
-///   `D = A (r² - l.l)`: the error of `B/A` lies along `v`, hence enters only to second order. (The paper's `r² + (v.w)² - |w|²` subtracts squares of
-///   the distance and loses hits beyond a thousand radii.) Source: E. Haines, J. Günther, T. Akenine-Möller, Precision Improvements for Ray/Sphere Intersection, Ray Tracing
-///   Gems, chapter 7 (2019).
-/// - Accuracy: 2.5 units roundoff times the conditioning of the inputs, whatever the distance. Cost: one square root and one division.
+/// - Along a ray, with `w = p - c`: `A = v.v`, `B = w.v`, `C = w.w - r²`, and the discriminant from the part of `w`
+///   perpendicular to the ray, `l = w - (B/A) v`, as `D = A (r² - l.l)`: the error of `B/A` lies along `v`, hence
+///   enters only to second order. (The paper's `r² + (v.w)² - |w|²` subtracts squares of the distance and loses hits
+///   beyond a thousand radii.) Source: E. Haines, J. Günther, T. Akenine-Möller, Precision Improvements for
+///   Ray/Sphere Intersection, Ray Tracing Gems, chapter 7 (2019).
+/// - Accuracy: 8 rounding errors, as the [crate](crate#accuracy) counts them, whatever the distance. Cost: one square
+///   root and one division.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sphere {
     center: Vec3,

@@ -6,7 +6,8 @@ use wide::f32x8;
 
 /// Eight `f32`: one AVX register, or two of SSE2, NEON or wasm's simd128, or plain numbers elsewhere.
 ///
-/// Only operations that round correctly are taken from `wide`: not its fused or estimated ones, and not its `min` and `max`, which treat NaN and signed zeros by target.
+/// Only operations that round correctly are taken from `wide`: not its fused or estimated ones, and not its `min` and
+/// `max`, which treat NaN and signed zeros by target.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(transparent)]
 pub struct F32x8(f32x8);

@@ -1,7 +1,7 @@
 //! The membership functions: what it means, in space, to be inside a primitive surface.
 //!
-//! Nothing here knows of rays. Each function is a polynomial in the coordinates of the point, of degree at most two and
-//! negative inside, written down from the definition of its surface.
+//! Nothing here knows of rays. Each function is a polynomial in the coordinates of the point, of degree at most two
+//! and negative inside, written down from the definition of its surface.
 
 use super::number::Exact;
 use super::vector::ExactVec3;
@@ -55,13 +55,14 @@ struct Cone {
 
 impl Cone {
     /// The distance from the axis at which the surface lies, multiplied by the run and by the length of the axis.
-    /// Negative beyond the apex, where the equation of the surface has a mirror image that does not belong to the cone.
+    /// Negative beyond the apex, where the equation of the surface has a mirror image that does not belong to the
+    /// cone.
     fn width(&self, from_point: &ExactVec3) -> Exact {
         &self.offset + &(&self.rise * &from_point.dot(&self.axis))
     }
 
-    /// The square of the width, multiplied out so that a rounded offset plays no part where nothing rises: a line that
-    /// lies within such a side is outside, and not inside by a rounding error.
+    /// The square of the width, multiplied out so that a rounded offset plays no part where nothing rises: a line
+    /// that lies within such a side is outside, and not inside by a rounding error.
     fn width_squared(&self, from_point: &ExactVec3) -> Exact {
         let growth = &self.rise * &from_point.dot(&self.axis);
         &(&self.offset_squared + &(&self.offset * &growth).scaled(1)) + &growth.square()
@@ -102,12 +103,12 @@ impl Inequality {
 
     /// The two inequalities which both hold inside a cone, and nowhere else.
     ///
-    /// With `z` the distance from the point along the axis and `ρ` the distance from it, that is where
-    /// `run ρ < run radius + rise z`. The first inequality is the square of it; the second excludes the mirror image
-    /// beyond the apex, where the right side is negative.
+    /// With `z` the distance from the point along the axis and `ρ` the distance from it, that is where `run ρ < run
+    /// radius + rise z`. The first inequality is the square of it; the second excludes the mirror image beyond the
+    /// apex, where the right side is negative.
     ///
-    /// `z` is a distance whatever the length of the axis. That length enters only if the radius is not zero, and is then
-    /// computed to 640 bits where it has no exact binary form. Such a side is right but for 2⁻⁶⁴⁰ of its size.
+    /// `z` is a distance whatever the length of the axis. That length enters only if the radius is not zero, and is
+    /// then computed to 640 bits where it has no exact binary form. Such a side is right but for 2⁻⁶⁴⁰ of its size.
     ///
     /// # Panics
     ///

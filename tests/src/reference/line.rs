@@ -153,7 +153,8 @@ fn cut(roots: Vec<Exact>) -> (Vec<Exact>, Vec<Exact>) {
     (cuts, samples)
 }
 
-/// A number well between two others: the one in the middle, or a shorter one near it, as short numbers multiply faster.
+/// A number well between two others: the one in the middle, or a shorter one near it, as short numbers multiply
+/// faster.
 fn between(low: &Exact, high: &Exact) -> Exact {
     let middle = (low + high).scaled(-1);
     let short = middle.rounded(SAMPLE_BITS);

@@ -1,17 +1,17 @@
 //! An exact reference: where a line is inside a solid, computed without rounding and without the library's algebra.
 //!
-//! The library solves for crossings in closed form, one formula for each leaf. A reference that used the same formulas
-//! would repeat their mistakes, so this one knows none of them:
+//! The library solves for crossings in closed form, one formula for each leaf. A reference that used the same
+//! formulas would repeat their mistakes, so this one knows none of them:
 //!
 //! - A solid is a boolean expression over polynomial inequalities in *space* ([`Inequality`]), each written down from
 //!   the definition of its surface: nearer to the center than the radius, behind the plane.
-//! - Along the line `origin + t direction` such a polynomial has a degree of at most two, so its values at three places
-//!   determine it. They are computed exactly, and interpolated exactly.
+//! - Along the line `origin + t direction` such a polynomial has a degree of at most two, so its values at three
+//!   places determine it. They are computed exactly, and interpolated exactly.
 //! - Its roots cut the line into pieces. Whether a piece is inside is found by evaluating the whole expression within
 //!   it, exactly. That answers every question of tangency, of coincident faces and of faces that contain the line.
 //!
-//! Numbers are [`Exact`], which rounds neither sums nor products. Only the *position* of a root is approximate, to more
-//! than 300 bits; [`Root`] says what follows from that.
+//! Numbers are [`Exact`], which rounds neither sums nor products. Only the *position* of a root is approximate, to
+//! more than 300 bits; [`Root`] says what follows from that.
 //!
 //! # Which side a boundary is on
 //!
@@ -189,7 +189,8 @@ impl Expr {
         }
     }
 
-    /// Whether a place is inside if these are the memberships of the leaves there, in the order of [`Self::restrict`].
+    /// Whether a place is inside if these are the memberships of the leaves there, in the order of
+    /// [`Self::restrict`].
     ///
     /// Visits every leaf, for the sake of their order and of the tags: hence `&`, which takes no short cut.
     fn evaluate(&self, leaves: &mut impl Iterator<Item = bool>, tags: &mut Vec<(u32, bool)>) -> bool {

@@ -1,7 +1,7 @@
 //! Exact binary numbers.
 //!
-//! Every finite `f32` and `f64` is an integer times a power of two. Sums, differences and products of such numbers are
-//! again such numbers, so they are carried without any rounding; only a quotient or a square root has to be cut
+//! Every finite `f32` and `f64` is an integer times a power of two. Sums, differences and products of such numbers
+//! are again such numbers, so they are carried without any rounding; only a quotient or a square root has to be cut
 //! somewhere, and those two say in their arguments after how many bits.
 
 use core::cmp::Ordering;

@@ -11,9 +11,9 @@ const EQUAL_ABSOLUTE: isize = 400;
 
 /// A parameter `t` along a line, right to more than 300 bits, or one of the two ends of the line.
 ///
-/// Two roots that agree to 250 bits count as one place. This is the one limit of the reference: it could not tell apart
-/// two crossings which are nearer than that without being equal. For coordinates which are ordinary `f32` that does not
-/// happen by chance, as such roots are numbers of far fewer bits or square roots of them.
+/// Two roots that agree to 250 bits count as one place. This is the one limit of the reference: it could not tell
+/// apart two crossings which are nearer than that without being equal. For coordinates which are ordinary `f32` that
+/// does not happen by chance, as such roots are numbers of far fewer bits or square roots of them.
 #[derive(Clone, Debug)]
 pub enum Root {
     /// The line comes from infinitely far.

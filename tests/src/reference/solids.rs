@@ -1,6 +1,7 @@
 //! The usual solids as expressions.
 //!
-//! Every parameter is a number the machine holds, `f32` or `f64`, taken exactly; directions need not have unit length.
+//! Every parameter is a number the machine holds, `f32` or `f64`, taken exactly; directions need not have unit
+//! length.
 
 use super::number::Exact;
 use super::vector::ExactVec3;
