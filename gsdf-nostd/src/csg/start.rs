@@ -50,6 +50,9 @@ impl Start for Ray {
 /// There its root is 0 exactly, so that a ray which leaves a solid does not meet it again at a distance of rounding
 /// errors, and one which enters it starts inside; no epsilon is asked of the caller. Leaves whose surfaces are as
 /// near as rounding can tell are treated alike.
+///
+/// Within rounding of a cone's tip no normal tells outward from inward, and a ray that leaves may meet the tip again at
+/// a distance of rounding errors.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Departure {
     ray: Ray,

@@ -211,3 +211,29 @@ impl Solid for CappedCone {
         Some(bottom.joined(Bounds::of_disc(self.top, self.axis, self.top_radius)))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::CappedCone;
+    use crate::leaf::Solid;
+    use glam::{Vec3, vec3};
+
+    #[test]
+    fn by_hand() {
+        let cup = CappedCone::new(Vec3::ZERO, vec3(0.0, 2.0, 0.0), Vec3::Y, 1.0, 3.0).unwrap();
+        assert_eq!(cup.sdf(vec3(2.0, 5.0, 0.0)), 3.0);
+        assert_eq!(cup.sdf(vec3(0.0, 0.25, 0.0)), -0.25);
+        assert_eq!(cup.gsdf(vec3(5.0, 1.0, 0.0), Vec3::NEG_X), 3.0);
+        assert_eq!(cup.gsdf(vec3(2.5, -1.0, 0.0), Vec3::Y), 2.5);
+        assert_eq!(cup.gsdf(vec3(0.5, 1.0, 0.0), Vec3::NEG_Y), -1.0);
+        assert_eq!(cup.gsdf(vec3(5.0, 2.5, 0.0), Vec3::NEG_X), f32::INFINITY);
+    }
+
+    #[test]
+    fn with_equal_radii_it_is_a_cylinder() {
+        let drum = CappedCone::new(Vec3::ZERO, vec3(0.0, 2.0, 0.0), Vec3::Y, 1.0, 1.0).unwrap();
+        assert_eq!(drum.gsdf(vec3(5.0, 1.0, 0.0), Vec3::NEG_X), 4.0);
+        assert_eq!(drum.gsdf(vec3(0.5, 5.0, 0.0), Vec3::NEG_Y), 3.0);
+        assert_eq!(drum.gsdf(vec3(1.5, 5.0, 0.0), Vec3::NEG_Y), f32::INFINITY);
+    }
+}

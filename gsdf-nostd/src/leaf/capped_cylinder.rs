@@ -159,3 +159,32 @@ impl Solid for CappedCylinder {
         Some(disc(self.bottom()).joined(disc(self.top)))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::CappedCylinder;
+    use crate::leaf::Solid;
+    use glam::{Vec3, vec3};
+
+    #[test]
+    fn by_hand() {
+        let drum = CappedCylinder::new(vec3(0.0, -1.0, 0.0), vec3(0.0, 3.0, 0.0), Vec3::Y, 2.0).unwrap();
+        assert_eq!(drum.sdf(vec3(5.0, 7.0, 0.0)), 5.0);
+        assert_eq!(drum.sdf(vec3(0.0, 2.5, 0.0)), -0.5);
+        assert_eq!(drum.sdf(vec3(0.0, -1.5, 0.0)), 0.5);
+        // Through a cap, the side, and over the caps where only the infinite cylinder would be met.
+        assert_eq!(drum.gsdf(vec3(1.0, 9.0, 0.0), Vec3::NEG_Y), 6.0);
+        assert_eq!(drum.gsdf(vec3(5.0, 1.0, 0.0), Vec3::NEG_X), 3.0);
+        assert_eq!(drum.gsdf(vec3(5.0, 4.0, 0.0), Vec3::NEG_X), f32::INFINITY);
+        assert_eq!(drum.gsdf(Vec3::ZERO, Vec3::NEG_Y), -1.0);
+        // In a cap.
+        assert_eq!(drum.gsdf(vec3(5.0, 3.0, 0.0), Vec3::NEG_X), f32::INFINITY);
+    }
+
+    #[test]
+    fn the_axis_between_points_over_each_other_is_exact() {
+        let (bottom, top) = (vec3(0.1, 0.2, 0.3), vec3(0.1, 0.7, 0.3));
+        let computed = CappedCylinder::between(bottom, top, 1.0).unwrap();
+        assert_eq!(computed, CappedCylinder::new(bottom, top, Vec3::Y, 1.0).unwrap());
+    }
+}

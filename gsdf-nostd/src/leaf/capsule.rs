@@ -169,3 +169,23 @@ impl Solid for Capsule {
         first.zip(second).map(|(first, second)| first.joined(second))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::Capsule;
+    use crate::leaf::Solid;
+    use glam::{Vec3, vec3};
+
+    #[test]
+    fn by_hand() {
+        let pill = Capsule::new(vec3(0.0, -1.0, 0.0), vec3(0.0, 1.0, 0.0), 0.5).unwrap();
+        assert_eq!(pill.sdf(vec3(3.0, 0.5, 0.0)), 2.5);
+        assert_eq!(pill.sdf(vec3(0.0, 4.0, 0.0)), 2.5);
+        assert_eq!(pill.sdf(vec3(0.0, 0.5, 0.0)), -0.5);
+        // The side, a round end, and from end to end.
+        assert_eq!(pill.gsdf(vec3(3.0, 0.5, 0.0), Vec3::NEG_X), 2.5);
+        assert_eq!(pill.gsdf(vec3(0.0, 4.0, 0.0), Vec3::NEG_Y), 2.5);
+        assert_eq!(pill.gsdf(vec3(0.0, 1.25, 0.0), Vec3::NEG_Y), -2.75);
+        assert_eq!(pill.gsdf(vec3(3.0, 1.5, 0.0), Vec3::NEG_X), f32::INFINITY);
+    }
+}

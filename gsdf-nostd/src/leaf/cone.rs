@@ -184,3 +184,24 @@ impl Solid for Cone {
         Some(tip.joined(Bounds::of_disc(self.base, self.axis, self.radius)))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::Cone;
+    use crate::leaf::Solid;
+    use glam::{Vec3, vec3};
+
+    #[test]
+    fn by_hand() {
+        let hat = Cone::new(vec3(0.0, 2.0, 0.0), Vec3::ZERO, Vec3::NEG_Y, 2.0).unwrap();
+        assert_eq!(hat.sdf(vec3(0.0, 5.0, 0.0)), 3.0);
+        assert_eq!(hat.sdf(vec3(1.0, -3.0, 0.0)), 3.0);
+        assert_eq!(hat.sdf(vec3(0.0, 0.25, 0.0)), -0.25);
+        assert_eq!(hat.gsdf(vec3(5.0, 1.0, 0.0), Vec3::NEG_X), 4.0);
+        assert_eq!(hat.gsdf(vec3(1.0, -3.0, 0.0), Vec3::Y), 3.0);
+        assert_eq!(hat.gsdf(vec3(1.0, 0.5, 0.0), Vec3::Y), -0.5);
+        // Over the tip, where the other nappe would be, and under the base.
+        assert_eq!(hat.gsdf(vec3(5.0, 3.0, 0.0), Vec3::NEG_X), f32::INFINITY);
+        assert_eq!(hat.gsdf(vec3(5.0, -1.0, 0.0), Vec3::NEG_X), f32::INFINITY);
+    }
+}

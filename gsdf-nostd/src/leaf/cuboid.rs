@@ -158,3 +158,24 @@ impl Solid for Cuboid {
         })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::Cuboid;
+    use crate::leaf::Solid;
+    use glam::{Vec3, vec3};
+
+    #[test]
+    fn by_hand() {
+        let block = Cuboid::new(vec3(-1.0, -2.0, -3.0), vec3(1.0, 2.0, 3.0)).unwrap();
+        assert_eq!(block.sdf(vec3(4.0, 6.0, 0.0)), 5.0);
+        assert_eq!(block.sdf(vec3(0.5, 0.0, 0.0)), -0.5);
+        assert_eq!(block.gsdf(vec3(0.0, 0.0, 8.0), Vec3::NEG_Z), 5.0);
+        assert_eq!(block.gsdf(vec3(0.0, 0.5, 0.0), Vec3::NEG_Y), -2.5);
+        // Past a corner of the octant that the nearest three planes bound.
+        assert_eq!(block.gsdf(vec3(3.0, 0.5, 0.5), vec3(-2.0, -4.0, 0.0)), f32::INFINITY);
+        // In a face: not inside, on either side of the box.
+        assert_eq!(block.gsdf(vec3(1.0, 0.0, 8.0), Vec3::NEG_Z), f32::INFINITY);
+        assert_eq!(block.gsdf(vec3(-1.0, 0.0, 8.0), vec3(-0.0, 0.0, -1.0)), f32::INFINITY);
+    }
+}

@@ -190,3 +190,25 @@ impl Solid for Cylinder {
         None
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::Cylinder;
+    use crate::leaf::Solid;
+    use glam::{Vec3, vec3};
+
+    #[test]
+    fn by_hand() {
+        let pipe = Cylinder::new(vec3(0.0, 7.0, 0.0), Vec3::Y, 2.0).unwrap();
+        assert_eq!(pipe.sdf(vec3(3.0, -5.0, 4.0)), 3.0);
+        assert_eq!(pipe.sdf(vec3(0.5, 9.0, 0.0)), -1.5);
+        // The height along the axis does not matter (as printed in the paper it did).
+        assert_eq!(pipe.gsdf(vec3(5.0, 1.0, 0.0), Vec3::NEG_X), 3.0);
+        assert_eq!(pipe.gsdf(vec3(5.0, 2.0, 0.0), vec3(-0.6, 0.8, 0.0)), 5.0);
+        assert_eq!(pipe.gsdf(Vec3::ZERO, Vec3::X), -2.0);
+        // Along the axis: inside all the way, outside all the way, and on the side, which is not inside.
+        assert_eq!(pipe.gsdf(vec3(1.0, 0.0, 0.0), Vec3::Y), f32::NEG_INFINITY);
+        assert_eq!(pipe.gsdf(vec3(3.0, 0.0, 0.0), Vec3::Y), f32::INFINITY);
+        assert_eq!(pipe.gsdf(vec3(2.0, 0.0, 0.0), Vec3::Y), f32::INFINITY);
+    }
+}

@@ -106,3 +106,25 @@ impl Solid for HalfSpace {
         None
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::HalfSpace;
+    use crate::leaf::Solid;
+    use glam::{Vec3, vec3};
+
+    #[test]
+    fn by_hand() {
+        let floor = HalfSpace::new(vec3(5.0, 1.0, -7.0), Vec3::Y).unwrap();
+        assert_eq!(floor.sdf(vec3(0.0, 3.0, 0.0)), 2.0);
+        assert_eq!(floor.sdf(vec3(0.0, -3.0, 0.0)), -4.0);
+        // Down to it, up away from it, and out of it.
+        assert_eq!(floor.gsdf(vec3(0.0, 3.0, 0.0), Vec3::NEG_Y), 2.0);
+        assert_eq!(floor.gsdf(vec3(0.0, 3.0, 0.0), Vec3::Y), f32::INFINITY);
+        assert_eq!(floor.gsdf(vec3(0.0, -3.0, 0.0), Vec3::Y), -4.0);
+        // Along it: over, under and in the plane, which is not inside.
+        assert_eq!(floor.gsdf(vec3(0.0, 3.0, 0.0), Vec3::X), f32::INFINITY);
+        assert_eq!(floor.gsdf(vec3(0.0, -3.0, 0.0), Vec3::X), f32::NEG_INFINITY);
+        assert_eq!(floor.gsdf(vec3(0.0, 1.0, 0.0), vec3(1.0, -0.0, 0.0)), f32::INFINITY);
+    }
+}

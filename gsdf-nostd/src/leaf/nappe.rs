@@ -153,3 +153,26 @@ impl Solid for Nappe {
         None
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::Nappe;
+    use crate::leaf::Solid;
+    use glam::{Vec3, vec3};
+
+    #[test]
+    fn by_hand() {
+        let funnel = Nappe::new(Vec3::ZERO, Vec3::Z, 1.0, 1.0).unwrap();
+        // Beside the tip the nearest point is the tip; inside, the side.
+        assert_eq!(funnel.sdf(vec3(0.0, 0.0, -2.0)), 2.0);
+        assert!((funnel.sdf(Vec3::Z) + 0.5_f32.sqrt()).abs() < 1e-6);
+        assert_eq!(funnel.gsdf(vec3(-2.0, 0.0, 1.0), Vec3::X), 1.0);
+        assert_eq!(funnel.gsdf(vec3(0.0, 0.0, 2.0), Vec3::X), -2.0);
+        // The other nappe, which the double cone has at 1, is not there.
+        assert_eq!(funnel.gsdf(vec3(-2.0, 0.0, -1.0), Vec3::X), f32::INFINITY);
+        // Steeper than the side: in for ever. Parallel to a generatrix: one root.
+        assert_eq!(funnel.gsdf(vec3(0.0, 0.0, -3.0), Vec3::Z), 3.0);
+        assert_eq!(funnel.gsdf(Vec3::Z, Vec3::Z), f32::NEG_INFINITY);
+        assert_eq!(funnel.gsdf(vec3(-2.0, 0.0, 0.0), vec3(1.0, 0.0, 1.0)), 1.0);
+    }
+}

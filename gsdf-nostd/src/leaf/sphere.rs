@@ -128,3 +128,34 @@ impl Solid for Sphere {
         Some(Bounds::around(self.center, Vec3::splat(self.radius)))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::Sphere;
+    use crate::leaf::Solid;
+    use glam::{Vec3, vec3};
+
+    #[test]
+    fn by_hand() {
+        let ball = Sphere::new(vec3(1.0, 2.0, 3.0), 2.0).unwrap();
+        assert_eq!(ball.sdf(vec3(1.0, 2.0, 8.0)), 3.0);
+        assert_eq!(ball.sdf(vec3(1.0, 2.0, 3.5)), -1.5);
+        // From outside, from inside, away from it, and past it without touching.
+        assert_eq!(ball.gsdf(vec3(1.0, 2.0, 8.0), Vec3::NEG_Z), 3.0);
+        assert_eq!(ball.gsdf(vec3(1.0, 2.0, 3.5), Vec3::Z), -1.5);
+        assert_eq!(ball.gsdf(vec3(1.0, 2.0, 8.0), Vec3::Z), f32::INFINITY);
+        assert_eq!(ball.gsdf(vec3(1.0, 4.5, 8.0), Vec3::NEG_Z), f32::INFINITY);
+        // A tangent misses.
+        assert_eq!(ball.gsdf(vec3(1.0, 4.0, 8.0), Vec3::NEG_Z), f32::INFINITY);
+        // From the surface: inward it is the diameter to the exit, outward there is nothing.
+        assert_eq!(ball.gsdf(vec3(1.0, 2.0, 5.0), Vec3::NEG_Z), -4.0);
+        assert_eq!(ball.gsdf(vec3(1.0, 2.0, 5.0), Vec3::Z), f32::INFINITY);
+    }
+
+    #[test]
+    fn ten_thousand_radii_away_the_rim_is_still_there() {
+        let ball = Sphere::new(vec3(10_000.0, 0.0, 0.0), 1.0).unwrap();
+        assert!(ball.gsdf(vec3(0.0, 0.999, 0.0), Vec3::X).is_finite());
+        assert!(ball.gsdf(vec3(0.0, 1.001, 0.0), Vec3::X).is_infinite());
+    }
+}
