@@ -1,13 +1,19 @@
 //! Scenes and pictures of gsdf, for its command line, its tests and its benchmarks.
 //!
 //! - [`scenes`]: what is looked at and from where, as data; nothing in it draws.
-//! - [`render`]: a scene to pixels, with the work it took counted apart from the light.
-//! - [`shade`] and [`palette`]: the light and the colours.
-//! - [`gallery`] and [`output`]: the pictures as files, and the table about them.
+//! - [`render`]: a scene to pixels, with the work its primary rays took counted apart from the light.
+//! - [`frame`] and [`leave`]: packets of rays that arrive at surfaces, and those that go on from there.
+//! - [`light`], [`shade`] and [`palette`]: the light and the colours. [`edges`]: where one ray per pixel is not enough.
+//! - [`gallery`], [`sheet`] and [`output`]: the pictures as files, and the table about them.
 
+pub mod edges;
+pub mod frame;
 pub mod gallery;
+pub mod leave;
+pub mod light;
 pub mod output;
 pub mod palette;
 pub mod render;
 pub mod scenes;
 pub mod shade;
+pub mod sheet;

@@ -5,61 +5,75 @@ use clap::{Args, Parser, Subcommand, value_parser};
 use gsdf_demo::gallery::Gallery;
 use gsdf_demo::scenes;
 use std::io::{self, Write};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 /// Pictures of CSG solids, ray-cast in closed form.
 ///
 /// Without a command it renders the gallery.
 #[derive(Debug, Parser)]
-#[command(version, args_conflicts_with_subcommands = true)]
+// A command ends the names after `--scene`.
+#[command(version, subcommand_precedence_over_arg = true)]
 struct CommandLine {
     #[command(subcommand)]
     command: Option<Command>,
     #[command(flatten)]
-    gallery: GalleryArguments,
+    options: Options,
 }
 
-#[derive(Debug, Subcommand)]
+#[derive(Clone, Copy, Debug, PartialEq, Subcommand)]
 enum Command {
-    /// Render scenes to PNG files, with a table of what each took
-    Gallery(GalleryArguments),
+    /// Render scenes to PNG files, with a table of what each took, and all scenes on one sheet
+    Gallery,
+    /// Render scenes to one PNG file, on which they stand side by side
+    Sheet,
 }
 
+/// They may stand before the command or after it.
 #[derive(Args, Debug)]
-struct GalleryArguments {
-    /// Pixels along each side of a picture
-    #[arg(long, value_name = "N", default_value_t = 512, value_parser = value_parser!(u32).range(1..=8192))]
+struct Options {
+    /// Pixels along each side of a picture; on the sheet half of them
+    #[arg(long, global = true, value_name = "N", default_value_t = 512, value_parser = value_parser!(u32).range(1..=4096))]
     size: u32,
-    /// Directory of the pictures, made if need be
-    #[arg(long, value_name = "DIR", default_value = "gallery")]
-    out: PathBuf,
+    /// Directory of the pictures, or file of the sheet [default: gallery, gallery/sheet.png]
+    #[arg(long, global = true, value_name = "PATH")]
+    out: Option<PathBuf>,
     /// Scenes to render [default: all]
-    #[arg(long, value_name = "NAME", num_args = 1.., value_parser = PossibleValuesParser::new(scenes::names()))]
+    #[arg(long, global = true, value_name = "NAME", num_args = 1.., value_parser = PossibleValuesParser::new(scenes::names()))]
     scene: Vec<String>,
     /// Threads to render on [default: one per core]
-    #[arg(long, value_name = "N", value_parser = value_parser!(u16).range(1..=1024))]
+    #[arg(long, global = true, value_name = "N", value_parser = value_parser!(u16).range(1..=1024))]
     threads: Option<u16>,
 }
 
-impl From<GalleryArguments> for Gallery {
-    fn from(arguments: GalleryArguments) -> Self {
+/// Where pictures and sheet lie if nothing else is said.
+const DIRECTORY: &str = "gallery";
+const SHEET: &str = "sheet.png";
+
+impl From<CommandLine> for Gallery {
+    fn from(line: CommandLine) -> Self {
+        let options = line.options;
+        let (directory, sheet) = match line.command.unwrap_or(Command::Gallery) {
+            Command::Gallery => {
+                let directory = options.out.unwrap_or_else(|| DIRECTORY.into());
+                // Some scenes alone are not the sheet of all.
+                let sheet = options.scene.is_empty().then(|| directory.join(SHEET));
+                (Some(directory), sheet)
+            }
+            Command::Sheet => (None, Some(options.out.unwrap_or_else(|| Path::new(DIRECTORY).join(SHEET)))),
+        };
         Self {
-            scenes: arguments.scene,
-            size: arguments.size,
-            directory: arguments.out,
-            threads: arguments.threads.map(usize::from),
+            scenes: options.scene,
+            size: options.size,
+            directory,
+            sheet,
+            threads: options.threads.map(usize::from),
         }
     }
 }
 
 fn main() -> ExitCode {
-    let line = CommandLine::parse();
-    let gallery = match line.command {
-        Some(Command::Gallery(arguments)) => arguments,
-        None => line.gallery,
-    };
-    match Gallery::from(gallery).render() {
+    match Gallery::from(CommandLine::parse()).render() {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
             // The whole chain of causes in one line. If nobody can read it, the status still tells.
@@ -71,8 +85,9 @@ fn main() -> ExitCode {
 
 #[cfg(test)]
 mod tests {
-    use super::{Command, CommandLine};
+    use super::CommandLine;
     use clap::{CommandFactory, Parser};
+    use gsdf_demo::gallery::Gallery;
     use gsdf_demo::scenes;
 
     #[test]
@@ -80,13 +95,34 @@ mod tests {
         CommandLine::command().debug_assert();
     }
 
+    fn gallery(arguments: &[&str]) -> Gallery {
+        CommandLine::parse_from(["gsdf"].iter().chain(arguments)).into()
+    }
+
     #[test]
     fn the_gallery_is_what_is_meant_without_a_command() {
-        let bare = CommandLine::parse_from(["gsdf", "--size", "7"]);
-        assert!(bare.command.is_none());
-        assert_eq!((bare.gallery.size, bare.gallery.scene.len()), (7, 0));
-        let line = CommandLine::parse_from(["gsdf", "gallery", "--scene", "s1", "hollow"]);
-        assert!(matches!(line.command, Some(Command::Gallery(arguments)) if arguments.scene == ["s1", "hollow"] && arguments.size == 512));
+        let bare = gallery(&["--size", "7"]);
+        assert_eq!((bare.size, bare.scenes.len(), bare.threads), (7, 0, None));
+        assert_eq!(bare.directory, Some("gallery".into()));
+        assert_eq!(bare.sheet, Some("gallery/sheet.png".into()));
+    }
+
+    #[test]
+    fn options_stand_before_the_command_or_after_it() {
+        for arguments in [["--size", "9", "gallery"], ["gallery", "--size", "9"]] {
+            assert_eq!(gallery(&arguments).size, 9);
+        }
+        assert_eq!(gallery(&["--scene", "s1", "hollow", "sheet"]).scenes.len(), 2);
+        let some = gallery(&["--out", "here", "gallery", "--scene", "s1", "hollow"]);
+        assert_eq!((some.directory, some.sheet), (Some("here".into()), None));
+        assert_eq!(some.scenes, ["s1", "hollow"]);
+    }
+
+    #[test]
+    fn a_sheet_is_one_file() {
+        let sheet = gallery(&["sheet", "--out", "all.png"]);
+        assert_eq!((sheet.directory, sheet.sheet), (None, Some("all.png".into())));
+        assert_eq!(gallery(&["sheet"]).sheet, Some("gallery/sheet.png".into()));
     }
 
     #[test]
@@ -96,7 +132,7 @@ mod tests {
             assert_eq!(error.exit_code(), 2);
             error.to_string()
         };
-        for size in ["0", "8193", "-1", "many"] {
+        for size in ["0", "4097", "-1", "many"] {
             assert!(refusal(["--size", size]).contains(size));
         }
         assert!(refusal(["--threads", "0"]).contains("1..=1024"));

@@ -2,22 +2,37 @@
 
 use anyhow::{Context, Result};
 use image::RgbImage;
-use image::codecs::png::PngEncoder;
+use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use std::fs::{self, File};
-use std::io::{self, BufWriter, ErrorKind, Write};
+use std::io::{self, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 use std::process;
+use std::time::Duration;
 
-/// Makes sure of a directory that can be written to, before any work is put into what shall lie in it.
+/// The age from which on an unfinished file is one that nobody writes any more.
+const STALE: Duration = Duration::from_secs(600);
+
+/// Makes sure of a directory that can be written to, before any work is put into what shall lie in it, and removes what runs that were killed left unfinished there.
 ///
 /// # Errors
 /// Where it cannot be made, or no file can be made in it.
 pub fn prepare(directory: &Path) -> Result<()> {
     fs::create_dir_all(directory).with_context(|| format!("cannot make the directory {}", directory.display()))?;
-    let probe = temporary(&directory.join("probe"));
+    let probe = temporary(&directory.join("probe.png"));
     File::create(&probe)
         .and_then(|_| fs::remove_file(&probe))
-        .with_context(|| format!("cannot write to the directory {}", directory.display()))
+        .with_context(|| format!("cannot write to the directory {}", directory.display()))?;
+    for entry in fs::read_dir(directory).into_iter().flatten().flatten() {
+        let age = entry
+            .metadata()
+            .and_then(|data| data.modified())
+            .map(|time| time.elapsed().unwrap_or_default());
+        if is_temporary(&entry.file_name().to_string_lossy()) && age.is_ok_and(|age| age >= STALE) {
+            // Somebody else may have been faster.
+            let _ = fs::remove_file(entry.path());
+        }
+    }
+    Ok(())
 }
 
 /// Writes a picture as PNG: under a temporary name beside its own, which it gets when it is whole.
@@ -26,7 +41,11 @@ pub fn prepare(directory: &Path) -> Result<()> {
 /// Where the file cannot be written or renamed. Then nothing is left of it.
 pub fn write_png(image: &RgbImage, path: &Path) -> Result<()> {
     let temporary = temporary(path);
-    let written = encode(image, &temporary).and_then(|()| Ok(fs::rename(&temporary, path)?));
+    // Whole in memory first: a run that is interrupted is hardly ever interrupted while it writes.
+    let written = encode(image).and_then(|bytes| {
+        fs::write(&temporary, bytes)?;
+        Ok(fs::rename(&temporary, path)?)
+    });
     if written.is_err() {
         // What matters is the error above; there may be nothing to remove.
         let _ = fs::remove_file(&temporary);
@@ -34,18 +53,29 @@ pub fn write_png(image: &RgbImage, path: &Path) -> Result<()> {
     written.with_context(|| format!("cannot write {}", path.display()))
 }
 
-fn encode(image: &RgbImage, path: &Path) -> Result<()> {
-    let mut file = BufWriter::new(File::create(path)?);
-    image.write_with_encoder(PngEncoder::new(&mut file))?;
-    // Dropping it would flush too, and keep quiet about a full disk.
-    file.flush()?;
-    Ok(())
+fn encode(image: &RgbImage) -> Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    image.write_with_encoder(PngEncoder::new_with_quality(
+        &mut bytes,
+        CompressionType::Best,
+        FilterType::Adaptive,
+    ))?;
+    Ok(bytes)
 }
 
 /// A name in the same directory, so that renaming is one step, and another one for each process.
 fn temporary(path: &Path) -> PathBuf {
     let name = path.file_name().unwrap_or_default().to_string_lossy();
     path.with_file_name(format!(".{name}.{}.part", process::id()))
+}
+
+/// Whether a file name is one that [`temporary`] makes, in whatever process.
+fn is_temporary(name: &str) -> bool {
+    let number = name
+        .strip_prefix('.')
+        .and_then(|rest| rest.strip_suffix(".part"))
+        .and_then(|rest| rest.rsplit_once(".png."));
+    number.is_some_and(|(_, number)| number.parse::<u32>().is_ok())
 }
 
 /// Writes a line to standard output. That nobody reads it any more is no error: the pictures are the result.
@@ -62,10 +92,11 @@ pub fn say(line: &str) -> Result<()> {
 
 #[cfg(test)]
 mod tests {
-    use super::{prepare, write_png};
+    use super::{STALE, is_temporary, prepare, temporary, write_png};
     use anyhow::Result;
     use image::{Rgb, RgbImage};
-    use std::path::PathBuf;
+    use std::path::{Path, PathBuf};
+    use std::time::SystemTime;
     use std::{env, fs, process};
 
     /// A directory of its own for a test.
@@ -86,6 +117,31 @@ mod tests {
         assert_eq!(fs::read_dir(directory.join("deep"))?.count(), 1);
         fs::remove_dir_all(directory)?;
         Ok(())
+    }
+
+    #[test]
+    fn what_a_killed_run_left_is_removed_and_nothing_else() -> Result<()> {
+        let directory = directory("stale");
+        prepare(&directory)?;
+        let files = [".s1.png.77.part", ".s2.png.78.part", ".mine.part", "s1.png"];
+        for name in files {
+            fs::write(directory.join(name), "")?;
+        }
+        for name in [files[0], files[2], files[3]] {
+            let file = fs::File::options().write(true).open(directory.join(name))?;
+            file.set_modified(SystemTime::now() - 2 * STALE)?;
+        }
+        prepare(&directory)?;
+        assert_eq!(files.map(|name| directory.join(name).exists()), [false, true, true, true]);
+        fs::remove_dir_all(directory)?;
+        Ok(())
+    }
+
+    #[test]
+    fn temporary_names_are_known_again() {
+        let name = temporary(Path::new("gallery/s1.png"));
+        assert!(name.file_name().is_some_and(|name| is_temporary(&name.to_string_lossy())));
+        assert!(!is_temporary(".s1.png.part") && !is_temporary("s1.png.7.part"));
     }
 
     #[test]

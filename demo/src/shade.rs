@@ -1,97 +1,208 @@
-//! The light: one sun with hard shadows, the sky above and the ground below, and some haze.
+//! From places to colours, many places at a time, so that the rays that go on from them fill packets.
 
+use crate::leave::{Leaver, Place};
+use crate::light::{Light, turn};
 use crate::scenes::Look;
-use glam::{Vec3, vec3};
-use gsdf_nostd::{Departure, Hit, Program, Ray, Span};
+use glam::Vec3;
+use gsdf_nostd::Program;
 
-/// Towards the sun: over the right shoulder of the cameras, so that three faces of a box get three different lights.
-const SUN: Vec3 = vec3(0.56, 0.74, -0.372_6);
-/// What the sun gives to a surface it meets squarely.
-const SUNLIGHT: Vec3 = vec3(0.92, 0.85, 0.74);
-/// What the sky gives to a surface that faces up.
-const SKYLIGHT: Vec3 = vec3(0.24, 0.29, 0.36);
-/// What the ground throws back to a surface that faces down.
-const GROUND_LIGHT: Vec3 = vec3(0.12, 0.11, 0.10);
-/// How strong the glint of the sun is, and how narrow.
-const GLINT: (f32, i32) = (0.14, 90);
-/// The background at the top of the picture, and at the bottom.
-const BACKDROP: [Vec3; 2] = [vec3(0.22, 0.34, 0.48), vec3(0.78, 0.79, 0.77)];
-
-/// The background at a height of the picture, from 0 at the top to 1 at the bottom.
-#[must_use]
-pub fn backdrop(height: f32) -> Vec3 {
-    // Smooth at both ends.
-    let eased = height * height * (3.0 - 2.0 * height);
-    BACKDROP[0].lerp(BACKDROP[1], eased)
+/// What one line of sight sees.
+#[derive(Clone, Copy, Debug)]
+pub struct Sample {
+    /// The unit vector in which one looks.
+    pub view: Vec3,
+    /// How far it is to what is seen.
+    pub distance: f32,
+    /// What is seen, if not the background.
+    pub place: Option<Place>,
+    /// What is seen without it.
+    pub behind: Vec3,
+    /// What sets this sample apart from its neighbours.
+    pub seed: u32,
 }
 
-/// The light that comes back along a ray from what it has hit. `behind` is what would be seen without it, `spans` scratch memory for one ray.
-///
-/// No epsilon anywhere: the way to the sun is a [`Departure`], which knows the surface it starts on.
-#[must_use]
-pub fn shade(program: &Program<'_>, spans: &mut [Span<f32>], look: &Look, ray: &Ray, hit: &Hit, behind: Vec3) -> Vec3 {
-    let view = ray.direction().normalize();
-    let albedo = (look.paint)(hit.leaf);
+/// Lights samples of one program.
+#[derive(Debug)]
+pub struct Shader<'a> {
+    leaver: Leaver<'a>,
+    look: Look,
+    ways: Vec<(Place, Vec3)>,
+    /// For each of the ways, whose it is and what it brings if it is free.
+    brings: Vec<(usize, Vec3)>,
+}
 
-    let facing = hit.normal.dot(SUN);
-    let sun = if facing > 0.0 && sees_the_sun(program, spans, hit) {
-        facing
-    } else {
-        0.0
-    };
-    let sky = SKYLIGHT.lerp(GROUND_LIGHT, 0.5 - 0.5 * hit.normal.y);
-    let mut light = albedo * (SUNLIGHT * sun + sky);
-    if sun > 0.0 {
-        let half = (SUN - view).normalize();
-        light += SUNLIGHT * GLINT.0 * hit.normal.dot(half).max(0.0).powi(GLINT.1);
+impl<'a> Shader<'a> {
+    /// For samples of this program, which looks so.
+    #[must_use]
+    pub fn new(program: Program<'a>, look: Look) -> Self {
+        Self {
+            leaver: Leaver::new(program),
+            look,
+            ways: Vec::new(),
+            brings: Vec::new(),
+        }
     }
 
-    let distance = ray.origin().distance(hit.point) / look.haze;
-    behind.lerp(light, (-distance * distance).exp())
+    /// The linear colours of samples. Where `share` of them make one pixel each of them sends so many times fewer rays to an extended light.
+    #[must_use]
+    pub fn shade(&mut self, samples: &[Sample], share: u32) -> Vec<Vec3> {
+        let light = self.look.light;
+        let mut colours = self.diffuse(samples, light.lamp_rays.div_ceil(share), light.sky_rays.div_ceil(share));
+        self.mirror(samples, &mut colours);
+        for (sample, colour) in samples.iter().zip(&mut colours) {
+            *colour = self.through_haze(sample, *colour);
+        }
+        colours
+    }
+
+    /// What comes back from the places themselves, and the glint of the lamp on them.
+    fn diffuse(&mut self, samples: &[Sample], lamp_rays: u32, sky_rays: u32) -> Vec<Vec3> {
+        let light = self.look.light;
+        let mut colours = vec![Vec3::ZERO; samples.len()];
+        for (number, sample) in samples.iter().enumerate() {
+            let Some(place) = sample.place else { continue };
+            let albedo = (self.look.paint)(place.leaf);
+            let dull = 1.0 - (self.look.mirror)(place.leaf);
+            let turn = turn(sample.seed);
+            for way in light.to_lamp(lamp_rays, turn) {
+                let facing = place.normal.dot(way);
+                if facing > 0.0 {
+                    let half = (way - sample.view).normalize();
+                    let glint = light.glint.0 * place.normal.dot(half).max(0.0).powi(light.glint.1);
+                    let brings = light.lamp * (albedo * facing * dull + glint) / lamp_rays as f32;
+                    self.ways.push((place, way));
+                    self.brings.push((number, brings));
+                }
+            }
+            let ambient = albedo * light.ambient(place.normal) * dull;
+            if sky_rays == 0 {
+                colours[number] += ambient;
+            } else {
+                // Where no sky is seen there is some other surface, which is not black either.
+                colours[number] += ambient * BOUNCE;
+                for way in Light::to_sky(place.normal, sky_rays, -turn) {
+                    self.ways.push((place, way));
+                    self.brings.push((number, ambient * (1.0 - BOUNCE) / sky_rays as f32));
+                }
+            }
+        }
+        for (free, (number, brings)) in self.leaver.free(&self.ways).zip(&self.brings) {
+            if free {
+                colours[*number] += *brings;
+            }
+        }
+        self.ways.clear();
+        self.brings.clear();
+        colours
+    }
+
+    /// Adds what places that mirror show of the others, and of the room.
+    fn mirror(&mut self, samples: &[Sample], colours: &mut [Vec3]) {
+        let mut whose = Vec::new();
+        let mut ways = Vec::new();
+        for (number, sample) in samples.iter().enumerate() {
+            let Some(place) = sample.place else { continue };
+            let strength = (self.look.mirror)(place.leaf);
+            if strength > 0.0 {
+                ways.push((place, sample.view.reflect(place.normal).normalize()));
+                whose.push((number, strength));
+            }
+        }
+        let seen: Vec<_> = self
+            .leaver
+            .cast(&ways)
+            .zip(&ways)
+            .zip(&whose)
+            .map(|((place, (from, view)), (number, _))| Sample {
+                view: *view,
+                distance: place.map_or(0.0, |place| place.point.distance(from.point)),
+                place,
+                behind: self.look.light.around(*view),
+                seed: samples[*number].seed.wrapping_add(0x5bd1_e995),
+            })
+            .collect();
+        let few = |rays: u32| rays.div_ceil(8);
+        let shown = self.diffuse(&seen, few(self.look.light.lamp_rays), few(self.look.light.sky_rays));
+        for ((sample, shown), (number, strength)) in seen.iter().zip(shown).zip(whose) {
+            let Some(place) = samples[number].place else { continue };
+            // Metals tint what they mirror, the less the flatter one looks at them.
+            let flat = (1.0 + place.normal.dot(samples[number].view)).clamp(0.0, 1.0).powi(5);
+            let tint = (self.look.paint)(place.leaf).lerp(Vec3::ONE, flat);
+            colours[number] += strength * tint * self.through_haze(sample, shown);
+        }
+    }
+
+    /// What is left of a colour at a distance.
+    fn through_haze(&self, sample: &Sample, colour: Vec3) -> Vec3 {
+        if sample.place.is_none() {
+            return sample.behind;
+        }
+        let distance = sample.distance / self.look.haze;
+        sample.behind.lerp(colour, (-distance * distance).exp())
+    }
 }
 
-/// Whether nothing stands between a hit and the sun.
-fn sees_the_sun(program: &Program<'_>, spans: &mut [Span<f32>], hit: &Hit) -> bool {
-    // Neither can fail: the sun is a direction, and the scratch memory served the hit already.
-    Departure::new(hit, SUN)
-        .ok()
-        .and_then(|departure| program.along(departure, spans).ok())
-        .is_some_and(|sight| sight.march().t == f32::INFINITY)
-}
+/// The part of the sky's light that reaches places which see nothing of it.
+const BOUNCE: f32 = 0.22;
 
 #[cfg(test)]
 mod tests {
-    use super::{BACKDROP, SUN, backdrop, sees_the_sun};
+    use super::{Sample, Shader};
+    use crate::frame::Met;
+    use crate::leave::Place;
+    use crate::light::Light;
     use crate::scenes::s1;
     use anyhow::{Context, Result};
     use glam::{Vec3, vec3};
     use gsdf_nostd::{Ray, Span};
 
     #[test]
-    fn the_sun_is_a_direction() {
-        assert!((SUN.length() - 1.0).abs() < 1e-3);
-    }
-
-    #[test]
-    fn the_backdrop_runs_from_end_to_end() {
-        assert_eq!([backdrop(0.0), backdrop(1.0)], BACKDROP);
-    }
-
-    #[test]
     fn the_ball_throws_its_shadow_away_from_the_sun_and_none_on_its_lit_side() -> Result<()> {
         let scene = s1();
         let program = scene.program()?;
         let mut spans = vec![Span::EMPTY; program.leaves()];
-        let mut lit = |from: Vec3, to: Vec3| {
+        let mut shader = Shader::new(program, scene.look);
+        let mut brightness = |from: Vec3, to: Vec3| {
             let ray = Ray::new(from, to - from)?;
             let hit = program.along(ray, &mut spans)?.cast().context("a miss")?;
-            anyhow::Ok(sees_the_sun(&program, &mut spans, &hit))
+            let met = Met {
+                t: hit.t,
+                normal: hit.normal,
+                leaf: hit.leaf,
+                face: hit.face,
+            };
+            let sample = Sample {
+                view: ray.direction().normalize(),
+                distance: 0.0,
+                place: Some(Place::on(&ray, met)),
+                behind: Vec3::ZERO,
+                seed: 0,
+            };
+            anyhow::Ok(shader.shade(&[sample], 1)[0].element_sum())
         };
+        let sun = Light::OUTDOORS.toward;
         let ball = vec3(0.0, 1.0, 0.0);
-        let shadow = ball - SUN / SUN.y;
-        assert!(!lit(shadow + vec3(-2.0, 1.0, 0.0), shadow)?);
-        assert!(lit(vec3(5.0, 5.0, -5.0), vec3(3.0, 0.0, 0.0))?);
-        assert!(lit(ball + 4.0 * SUN, ball)?);
+        let shadow = ball - sun / sun.y;
+        let dark = brightness(shadow + vec3(-2.0, 1.0, 0.0), shadow)?;
+        let lit = brightness(vec3(5.0, 5.0, -5.0), vec3(3.0, 0.0, 0.0))?;
+        assert!(lit > 2.0 * dark, "{lit} {dark}");
+        let towards = brightness(ball + 4.0 * sun, ball)?;
+        let away = brightness(ball - 1.2 * sun, ball)?;
+        assert!(towards > 2.0 * away, "{towards} {away}");
+        Ok(())
+    }
+
+    #[test]
+    fn without_a_place_there_is_the_background() -> Result<()> {
+        let scene = s1();
+        let sample = Sample {
+            view: Vec3::Y,
+            distance: 0.0,
+            place: None,
+            behind: vec3(0.1, 0.2, 0.3),
+            seed: 0,
+        };
+        assert_eq!(Shader::new(scene.program()?, scene.look).shade(&[sample], 1), [sample.behind]);
         Ok(())
     }
 }

@@ -1,14 +1,18 @@
 //! What there is to look at: each scene a program, a camera and a choice of colours.
 
 mod paper;
+mod planetary;
 mod reference;
 
 pub use paper::{HOLLOW_SPHERE, SNOWCONE, hollow, snowcone};
+pub use planetary::planetary;
 pub use reference::{BALL_ON_GROUND, PART, part, s1, s2, s3, s4, s5};
 
+use crate::light::Light;
+use crate::palette;
 use core::fmt::Display;
 use glam::Vec3;
-use gsdf_nostd::{Camera, Node, Program, ProgramError};
+use gsdf_nostd::{Camera, Node, Program, ProgramError, Transform};
 
 /// A solid, and how to look at it.
 #[derive(Clone, Debug)]
@@ -19,6 +23,8 @@ pub struct Scene {
     pub title: &'static str,
     /// The solid: a program in postfix order.
     pub nodes: Vec<Node>,
+    /// Where its frames are, the first being frame 1.
+    pub poses: Vec<Transform>,
     /// From where it is seen.
     pub camera: Camera,
     /// How it is coloured.
@@ -30,17 +36,34 @@ pub struct Scene {
 pub struct Look {
     /// The colour of each leaf's surface: linear, each channel from 0 to 1.
     pub paint: fn(leaf: u32) -> Vec3,
+    /// How much each leaf's surface mirrors, from 0 to 1.
+    pub mirror: fn(leaf: u32) -> f32,
     /// The distance at which things have faded to a third against the background; infinite for clear air.
     pub haze: f32,
+    /// The light.
+    pub light: Light,
+}
+
+impl Look {
+    /// Dull and grey, in the sun and in clear air: what a scene's look differs from.
+    pub const OUTDOORS: Self = Self {
+        paint: |_| palette::GROUND,
+        mirror: |_| 0.0,
+        haze: f32::INFINITY,
+        light: Light::OUTDOORS,
+    };
 }
 
 impl Scene {
-    /// The program of the scene.
+    /// The program of the scene, with its frames posed.
     ///
     /// # Errors
-    /// Where the nodes are not a program.
+    /// Where the nodes are not a program, or name a frame without a pose.
     pub const fn program(&self) -> Result<Program<'_>, ProgramError> {
-        Program::new(self.nodes.as_slice())
+        match Program::new(self.nodes.as_slice()) {
+            Ok(program) => program.posed(self.poses.as_slice()),
+            Err(error) => Err(error),
+        }
     }
 }
 
@@ -48,7 +71,7 @@ impl Scene {
 type Constructor = fn() -> Scene;
 
 /// Every scene by its name, which is known before the scene is made.
-const CATALOGUE: [(&str, Constructor); 7] = [
+const CATALOGUE: [(&str, Constructor); 8] = [
     ("s1", s1),
     ("s2", s2),
     ("s3", s3),
@@ -56,6 +79,7 @@ const CATALOGUE: [(&str, Constructor); 7] = [
     ("s5", s5),
     ("snowcone", snowcone),
     ("hollow", hollow),
+    ("planetary", planetary),
 ];
 
 /// The names of all scenes, in the order of [`all`].
@@ -79,6 +103,19 @@ pub fn all() -> Vec<Scene> {
 /// A camera that stands upright.
 fn upright(eye: Vec3, target: Vec3, tangent: f32) -> Camera {
     valid(Camera::pinhole(eye, target, Vec3::Y, tangent))
+}
+
+/// Many operands joined by one operator: a chain that leans to the left, so that however long it is only one operand waits beside the one at hand.
+fn joined(operator: Node, operands: impl IntoIterator<Item = Vec<Node>>) -> Vec<Node> {
+    let mut nodes = Vec::new();
+    for operand in operands {
+        let is_first = nodes.is_empty();
+        nodes.extend(operand);
+        if !is_first {
+            nodes.push(operator);
+        }
+    }
+    nodes
 }
 
 /// What was made of numbers that stand in this source: if they are refused, the source is wrong.

@@ -57,6 +57,7 @@ pub fn snowcone() -> Scene {
         name: "snowcone",
         title: "the paper's snowcone",
         nodes: SNOWCONE_ON_ITS_STAND.nodes().to_vec(),
+        poses: Vec::new(),
         camera: upright(vec3(1.6, 3.3, -7.0), vec3(0.0, 1.62, 0.0), 0.31),
         look: Look {
             paint: |leaf| match leaf {
@@ -67,6 +68,7 @@ pub fn snowcone() -> Scene {
                 _ => palette::GROUND,
             },
             haze: 28.0,
+            ..Look::OUTDOORS
         },
     }
 }
@@ -78,6 +80,7 @@ pub fn hollow() -> Scene {
         name: "hollow",
         title: "the paper's hollowed-out sphere",
         nodes: HOLLOW_SPHERE_ON_THE_GROUND.nodes().to_vec(),
+        poses: Vec::new(),
         camera: upright(vec3(1.9, 2.6, -4.2), vec3(0.0, 0.88, 0.0), 0.3),
         look: Look {
             paint: |leaf| match leaf {
@@ -88,6 +91,7 @@ pub fn hollow() -> Scene {
                 _ => palette::GROUND,
             },
             haze: 20.0,
+            ..Look::OUTDOORS
         },
     }
 }

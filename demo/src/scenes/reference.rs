@@ -1,6 +1,6 @@
 //! The five scenes on which other renderers were measured: a ball on the ground, one part, and three grids of growing weight.
 
-use super::{Look, Scene, upright, valid};
+use super::{Look, Scene, joined, upright, valid};
 use crate::palette;
 use glam::{Vec3, vec3};
 use gsdf_nostd::{CappedCylinder, Capsule, Cone, Csg, Cuboid, Draft, HalfSpace, Leaf, Node, Sphere, csg};
@@ -49,10 +49,12 @@ pub fn s1() -> Scene {
         name: "s1",
         title: "a ball on the ground",
         nodes: BALL_ON_GROUND.nodes().to_vec(),
+        poses: Vec::new(),
         camera: upright(vec3(0.0, 1.6, -4.0), vec3(0.0, 1.0, 0.0), 0.36),
         look: Look {
             paint: |leaf| if leaf == 0 { palette::CORAL } else { palette::GROUND },
             haze: 16.0,
+            ..Look::OUTDOORS
         },
     }
 }
@@ -64,6 +66,7 @@ pub fn s2() -> Scene {
         name: "s2",
         title: "a drilled and rounded cube",
         nodes: PART.nodes().to_vec(),
+        poses: Vec::new(),
         camera: upright(vec3(2.5, 2.2, -3.5), Vec3::ZERO, 0.36),
         look: Look {
             paint: |leaf| match leaf {
@@ -72,6 +75,7 @@ pub fn s2() -> Scene {
                 _ => palette::CORAL,
             },
             haze: f32::INFINITY,
+            ..Look::OUTDOORS
         },
     }
 }
@@ -82,10 +86,14 @@ pub fn s3() -> Scene {
     Scene {
         name: "s3",
         title: "a grid of four kinds of solids",
-        nodes: joined(cells::<4, 4, 4>().map(|[i, j, k]| {
-            let center = 2.0 * vec3(i as f32, j as f32, k as f32) - Vec3::splat(3.0);
-            vec![Node::leaf(solid_of_kind((i + j + k) % 4, center))]
-        })),
+        nodes: joined(
+            Node::Union,
+            cells::<4, 4, 4>().map(|[i, j, k]| {
+                let center = 2.0 * vec3(i as f32, j as f32, k as f32) - Vec3::splat(3.0);
+                vec![Node::leaf(solid_of_kind((i + j + k) % 4, center))]
+            }),
+        ),
+        poses: Vec::new(),
         camera: upright(vec3(7.0, 6.0, -11.0), Vec3::ZERO, 0.45),
         look: Look {
             paint: |leaf| {
@@ -93,6 +101,7 @@ pub fn s3() -> Scene {
                 palette::FOUR[(i + j + k) as usize % 4]
             },
             haze: f32::INFINITY,
+            ..Look::OUTDOORS
         },
     }
 }
@@ -103,15 +112,20 @@ pub fn s4() -> Scene {
     Scene {
         name: "s4",
         title: "4096 spheres of ten sizes",
-        nodes: joined(cells::<16, 16, 16>().map(|[i, j, k]| {
-            let center = vec3(i as f32, j as f32, k as f32) - Vec3::splat(7.5);
-            let radius = 0.2 + 0.1 * size_class([i, j, k]) as f32 / 10.0;
-            vec![Node::leaf(valid(Sphere::new(center, radius)).into())]
-        })),
+        nodes: joined(
+            Node::Union,
+            cells::<16, 16, 16>().map(|[i, j, k]| {
+                let center = vec3(i as f32, j as f32, k as f32) - Vec3::splat(7.5);
+                let radius = 0.2 + 0.1 * size_class([i, j, k]) as f32 / 10.0;
+                vec![Node::leaf(valid(Sphere::new(center, radius)).into())]
+            }),
+        ),
+        poses: Vec::new(),
         camera: upright(vec3(16.0, 13.0, -26.0), Vec3::ZERO, 0.38),
         look: Look {
             paint: |leaf| palette::ramp(size_class(cell::<16, 16>(leaf)) as f32 / 9.0),
             haze: 90.0,
+            ..Look::OUTDOORS
         },
     }
 }
@@ -122,10 +136,14 @@ pub fn s5() -> Scene {
     Scene {
         name: "s5",
         title: "256 drilled and rounded cubes",
-        nodes: joined(cells::<16, 1, 16>().map(|[i, _, k]| {
-            let center = 3.2 * (vec3(i as f32, 0.0, k as f32) - vec3(7.5, 0.0, 7.5));
-            part(center).nodes().to_vec()
-        })),
+        nodes: joined(
+            Node::Union,
+            cells::<16, 1, 16>().map(|[i, _, k]| {
+                let center = 3.2 * (vec3(i as f32, 0.0, k as f32) - vec3(7.5, 0.0, 7.5));
+                part(center).nodes().to_vec()
+            }),
+        ),
+        poses: Vec::new(),
         camera: upright(vec3(20.0, 30.0, -45.0), Vec3::ZERO, 0.5),
         look: Look {
             paint: |leaf| {
@@ -137,6 +155,7 @@ pub fn s5() -> Scene {
                 }
             },
             haze: 240.0,
+            ..Look::OUTDOORS
         },
     }
 }
@@ -167,19 +186,6 @@ fn solid_of_kind(kind: u32, center: Vec3) -> Leaf {
         2 => valid(Capsule::new(center - 0.4 * Vec3::Y, center + 0.4 * Vec3::Y, 0.4)).into(),
         _ => valid(Cone::new(center + 0.6 * Vec3::Y, center - 0.6 * Vec3::Y, Vec3::NEG_Y, 0.7)).into(),
     }
-}
-
-/// The union of many operands: a chain that leans to the left, so that however long it is only one operand waits beside the one at hand.
-fn joined(operands: impl Iterator<Item = Vec<Node>>) -> Vec<Node> {
-    let mut nodes = Vec::new();
-    for operand in operands {
-        let is_first = nodes.is_empty();
-        nodes.extend(operand);
-        if !is_first {
-            nodes.push(Node::Union);
-        }
-    }
-    nodes
 }
 
 #[cfg(test)]

@@ -1,0 +1,124 @@
+//! A canvas of the demo's own: what the ray of every pixel meets, with the face, which a ray that goes on from there wants to know.
+
+use glam::Vec3;
+use gsdf_nostd::Mask;
+use gsdf_simd::{Band, Canvas, Hits};
+
+/// What one ray met.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Met {
+    /// The parameter of the ray.
+    pub t: f32,
+    /// The unit normal, outward from the solid.
+    pub normal: Vec3,
+    /// The leaf whose surface it is.
+    pub leaf: u32,
+    /// The face of that leaf.
+    pub face: u8,
+}
+
+/// What every lane of a packet met.
+#[must_use]
+pub fn met(hits: &Hits) -> [Option<Met>; 8] {
+    if !hits.hit.any() {
+        return [None; 8];
+    }
+    let bits = hits.hit.to_bits();
+    let surface = hits.met.surface;
+    let (t, leaf, face) = (hits.t.to_array(), hits.met.leaf.to_array(), surface.face.to_array());
+    let normal = [surface.normal.x, surface.normal.y, surface.normal.z].map(gsdf_simd::F32x8::to_array);
+    core::array::from_fn(|lane| {
+        (bits >> lane & 1 == 1).then(|| Met {
+            t: t[lane],
+            normal: Vec3::from(normal.map(|lanes| lanes[lane])),
+            leaf: leaf[lane] as u32,
+            face: face[lane] as u8,
+        })
+    })
+}
+
+/// The pixels of a picture, row by row from the top.
+#[derive(Clone, Debug)]
+pub struct Frame {
+    width: usize,
+    pixels: Vec<Option<Met>>,
+}
+
+impl Frame {
+    /// A frame that shows nothing yet.
+    #[must_use]
+    pub fn new(width: u32, height: u32) -> Self {
+        let width = width as usize;
+        Self {
+            width,
+            pixels: vec![None; width * height as usize],
+        }
+    }
+
+    /// A row, counted from the top.
+    #[must_use]
+    pub fn row(&self, y: u32) -> &[Option<Met>] {
+        self.pixels.chunks_exact(self.width.max(1)).nth(y as usize).unwrap_or_default()
+    }
+}
+
+impl Canvas for Frame {
+    type Band<'b> = FrameBand<'b>;
+
+    fn bands(&mut self, width: u32, rows: u32) -> Vec<FrameBand<'_>> {
+        let width = width.max(1) as usize;
+        self.pixels
+            .chunks_mut(width * rows as usize)
+            .map(|pixels| FrameBand { width, pixels })
+            .collect()
+    }
+}
+
+/// Some rows of a [`Frame`].
+#[derive(Debug)]
+pub struct FrameBand<'b> {
+    width: usize,
+    pixels: &'b mut [Option<Met>],
+}
+
+impl Band for FrameBand<'_> {
+    fn put(&mut self, x: u32, y: u32, count: usize, hits: &Hits) {
+        let start = y as usize * self.width + x as usize;
+        for (pixel, met) in self.pixels.iter_mut().skip(start).take(count).zip(met(hits)) {
+            *pixel = met;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Frame;
+    use crate::scenes::s3;
+    use anyhow::Result;
+    use gsdf_nostd::Span;
+    use gsdf_simd::Image;
+
+    #[test]
+    fn every_pixel_shows_what_its_ray_hits_by_itself() -> Result<()> {
+        let scene = s3();
+        let (program, raster) = (scene.program()?, scene.camera.raster(37, 21));
+        let mut frame = Frame::new(37, 21);
+        let tally = Image::new(program, raster).render(&mut frame);
+        let mut spans = vec![Span::EMPTY; program.leaves()];
+        let mut hits = 0;
+        for y in 0..21 {
+            assert_eq!(frame.row(y).len(), 37);
+            for (x, seen) in (0..).zip(frame.row(y)) {
+                let hit = program.along(raster.ray(x, y)?, &mut spans)?.cast();
+                assert_eq!(
+                    seen.map(|met| (met.t, met.normal, met.leaf, met.face)),
+                    hit.map(|hit| (hit.t, hit.normal, hit.leaf, hit.face))
+                );
+                hits += u64::from(hit.is_some());
+            }
+        }
+        assert_eq!(tally.hits, hits);
+        assert!(frame.row(21).is_empty());
+        Ok(())
+    }
+}
