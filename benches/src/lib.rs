@@ -1,1 +1,24 @@
-//! x
+//! What a distance costs: the closed form against sphere tracing, against itself and against parry3d; in nanoseconds, and in operations.
+//!
+//! | command | what it measures |
+//! |---|---|
+//! | `cargo bench --bench race` | scenes, A and B by turns in one process: ratios with confidence intervals; `-- --csv FILE` to publish them |
+//! | `cargo bench --bench counts` | operations, roots, sweeps and steps per ray: the same numbers on every machine |
+//! | `cargo bench --bench scenes` | scenes: time per picture of each contender |
+//! | `cargo bench --bench leaves` | leaves: time per evaluation, one at a time and in packets |
+//! | `cargo bench --bench parry` | ray casts on the solids parry3d has too |
+//!
+//! Times on machines that others use too swing by a factor of three within minutes. Only the race is a comparison: there each ratio is one of two neighbours in time.
+
+pub mod arena;
+pub mod arguments;
+pub mod contender;
+pub mod counted;
+pub mod counts;
+pub mod frame;
+pub mod inputs;
+pub mod leaves;
+pub mod machine;
+pub mod race;
+pub mod report;
+pub mod stats;

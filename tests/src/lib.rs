@@ -2,7 +2,9 @@
 //! them.
 
 pub mod arrangements;
+pub mod conformance;
 pub mod corpus;
+pub mod golden;
 pub mod poses;
 pub mod reference;
 pub mod sandwich;

@@ -8,12 +8,25 @@ use gsdf_nostd::{Bounds, Node, Raster, RayError, Solid};
 #[derive(Clone, Copy, Debug)]
 pub struct Part<'a> {
     nodes: &'a [Node],
+    /// The number of its first leaf in the whole program.
+    first_leaf: u32,
     /// A ball around it, if it is bounded.
     ball: Option<(DVec3, f64)>,
 }
 
+/// The part of a program that a tile sees.
+#[derive(Clone, Debug, Default)]
+pub struct Cut {
+    /// The program; empty where the tile sees nothing.
+    pub nodes: Vec<Node>,
+    /// The numbers that its leaves have in the whole program, in order.
+    pub leaves: Vec<u32>,
+}
+
 impl<'a> Part<'a> {
-    fn new(nodes: &'a [Node]) -> Self {
+    /// The operand from node `start` of a program to before node `end`.
+    fn new(whole: &'a [Node], start: usize, end: usize) -> Self {
+        let nodes = &whole[start..end];
         let bounds = nodes.iter().filter_map(|node| match node {
             Node::Leaf { solid, .. } => Some(solid.bounds()),
             _ => None,
@@ -25,7 +38,11 @@ impl<'a> Part<'a> {
             let (min, max) = (min.as_dvec3(), max.as_dvec3());
             ((min + max) / 2.0, (max - min).length() / 2.0)
         });
-        Self { nodes, ball }
+        Self {
+            nodes,
+            first_leaf: leaves(&whole[..start]),
+            ball,
+        }
     }
 
     /// Whether rays from `eye` within `angle` of the unit vector `axis` may meet it.
@@ -45,12 +62,17 @@ pub fn parts(nodes: &[Node]) -> Vec<Part<'_>> {
     let mut rest = nodes;
     while let Some((Node::Union, operands)) = rest.split_last() {
         let start = start_of_last(operands);
-        found.push(Part::new(&operands[start..]));
+        found.push(Part::new(nodes, start, operands.len()));
         rest = &operands[..start];
     }
-    found.push(Part::new(rest));
+    found.push(Part::new(nodes, 0, rest.len()));
     found.reverse();
     found
+}
+
+/// How many leaves there are.
+fn leaves(nodes: &[Node]) -> u32 {
+    nodes.iter().filter(|node| matches!(node, Node::Leaf { .. })).count() as u32
 }
 
 /// Where the last operand of a postfix list starts.
@@ -74,6 +96,15 @@ fn start_of_last(nodes: &[Node]) -> usize {
 /// # Errors
 /// Where the camera's rays are none.
 pub fn visible(parts: &[Part<'_>], raster: &Raster, from: (u32, u32), to: (u32, u32)) -> Result<Vec<Node>, RayError> {
+    Ok(cut(parts, raster, from, to)?.nodes)
+}
+
+/// [`visible`], with what its leaves are called in the whole program. Their order is kept, so that the lowest number
+/// still wins where surfaces coincide.
+///
+/// # Errors
+/// Where the camera's rays are none.
+pub fn cut(parts: &[Part<'_>], raster: &Raster, from: (u32, u32), to: (u32, u32)) -> Result<Cut, RayError> {
     let direction = |x: f32, y: f32| Ok(raster.ray_through(x, y)?.direction().as_dvec3().normalize());
     let (left, top, right, bottom) = (from.0 as f32, from.1 as f32, to.0 as f32, to.1 as f32);
     let axis = direction((left + right) / 2.0, (top + bottom) / 2.0)?;
@@ -82,13 +113,14 @@ pub fn visible(parts: &[Part<'_>], raster: &Raster, from: (u32, u32), to: (u32, 
         angle = angle.max(axis.angle_between(direction(x, y)?));
     }
     let eye = raster.camera().eye().as_dvec3();
-    let mut nodes = Vec::new();
+    let mut cut = Cut::default();
     for part in parts.iter().filter(|part| part.is_in_cone(eye, axis, angle)) {
-        let first = nodes.is_empty();
-        nodes.extend_from_slice(part.nodes);
+        let first = cut.nodes.is_empty();
+        cut.nodes.extend_from_slice(part.nodes);
+        cut.leaves.extend(part.first_leaf..part.first_leaf + leaves(part.nodes));
         if !first {
-            nodes.push(Node::Union);
+            cut.nodes.push(Node::Union);
         }
     }
-    Ok(nodes)
+    Ok(cut)
 }

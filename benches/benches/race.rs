@@ -1,0 +1,50 @@
+//! One command that interleaves A and B in one process: ratios with confidence intervals. `cargo bench --bench race -- --help` tells what can be asked of it.
+
+use anyhow::{Context, Result};
+use clap::Parser;
+use gsdf_benches::arguments::Arguments;
+use gsdf_benches::machine::Machine;
+use gsdf_benches::race::{Pools, race, thread_ceiling};
+use gsdf_benches::report;
+use gsdf_demo::scenes;
+use std::fs::File;
+use std::io::{self, Write};
+use std::process::ExitCode;
+
+fn run(arguments: &Arguments) -> Result<()> {
+    let (machine, rules) = (Machine::here(), arguments.rules());
+    // Before the first turn: a race is long, and a file that cannot be written should be known at its start.
+    let mut csv = match &arguments.csv {
+        Some(path) => Some(File::create(path).with_context(|| format!("cannot write {}", path.display()))?),
+        None => None,
+    };
+    if let Some(csv) = &mut csv {
+        writeln!(csv, "{}", report::CSV_HEAD).context("CSV")?;
+    }
+    let mut out = io::stdout().lock();
+    let pools = Pools::new(rules.threads)?;
+    let ceiling = thread_ceiling(&pools);
+    writeln!(out, "{}\n{}", report::head(&machine, &rules, ceiling), report::columns())?;
+    for name in &arguments.scenes {
+        let scene = scenes::by_name(name).with_context(|| format!("no scene {name}"))?;
+        race(&scene, &rules, &pools, &mut |outcome| {
+            writeln!(out, "{}", report::line(outcome))?;
+            if let Some(csv) = &mut csv {
+                writeln!(csv, "{}", report::csv_line(&machine, ceiling, outcome)).context("CSV")?;
+            }
+            Ok(())
+        })?;
+    }
+    Ok(())
+}
+
+fn main() -> ExitCode {
+    match run(&Arguments::parse()) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            // The whole chain of causes in one line. If nobody can read it, the status still tells.
+            let _ = writeln!(io::stderr(), "error: {error:#}");
+            ExitCode::FAILURE
+        }
+    }
+}

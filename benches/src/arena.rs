@@ -1,0 +1,79 @@
+//! A scene made ready for the contenders: what both sides get before the clock starts.
+
+use crate::frame::Frame;
+use anyhow::{Context, Result};
+use gsdf_demo::scenes::Scene;
+use gsdf_nostd::{Program, Raster, SphereTracer};
+
+/// The marcher's tolerance, relative to the distance travelled.
+pub const EPSILON: f32 = 1e-4;
+
+/// The most steps the marcher may take.
+pub const MAX_STEPS: u32 = 128;
+
+/// A scene, the size of its picture, and the marcher's settings for it.
+#[derive(Clone, Debug)]
+pub struct Arena<'a> {
+    /// The name of the scene.
+    pub name: &'static str,
+    /// The program, the same for all contenders; nobody culls.
+    pub program: Program<'a>,
+    /// The picture.
+    pub raster: Raster,
+    /// Where the marcher gives up: a hundredth beyond the farthest thing in the picture, which it is told for nothing, so that its misses end early.
+    pub end: f32,
+    /// The marcher.
+    pub tracer: SphereTracer,
+}
+
+impl<'a> Arena<'a> {
+    /// A scene as a square of `size` by `size` pixels, with a marcher that does not over-relax.
+    ///
+    /// # Errors
+    /// Where the scene is not a program.
+    pub fn new(scene: &'a Scene, size: u32) -> Result<Self> {
+        let program = scene.program().with_context(|| format!("scene {}", scene.name))?;
+        let mut arena = Self {
+            name: scene.name,
+            program,
+            raster: scene.camera.raster(size, size),
+            end: f32::INFINITY,
+            tracer: tracer(1.0),
+        };
+        arena.end = 1.01 * arena.exact().farthest().unwrap_or(1.0);
+        Ok(arena)
+    }
+
+    /// The same with another relaxation of the marcher.
+    #[must_use]
+    pub fn relaxed(&self, relaxation: f32) -> Self {
+        Self {
+            tracer: tracer(relaxation),
+            ..self.clone()
+        }
+    }
+
+    /// How many pixels the picture has.
+    #[must_use]
+    pub fn pixels(&self) -> usize {
+        self.raster.width() as usize * self.raster.height() as usize
+    }
+
+    /// The picture as the closed form has it, on all threads.
+    #[must_use]
+    pub fn exact(&self) -> Frame {
+        let mut frame = Frame::new(self.pixels());
+        crate::contender::Contender::ClosedPackets.render(self, &mut frame);
+        frame
+    }
+}
+
+/// The marcher with a relaxation.
+#[must_use]
+pub const fn tracer(relaxation: f32) -> SphereTracer {
+    SphereTracer {
+        epsilon: EPSILON,
+        max_steps: MAX_STEPS,
+        relaxation,
+    }
+}

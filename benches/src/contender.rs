@@ -1,0 +1,154 @@
+//! The contenders: two methods, each with one ray at a time and with eight.
+
+use crate::arena::Arena;
+use crate::frame::Frame;
+use gsdf_nostd::{Ray, Real, Span};
+use gsdf_simd::{F32x8, Image, Packet, Pixel};
+use rayon::prelude::*;
+
+/// Who renders.
+///
+/// All cast one ray through the centre of each pixel, brute force: every leaf at every step. The closed form finds distance, normal and leaf; the marcher is let
+/// off with the distance. All work in bands of 16 rows on the threads of the current pool.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Contender {
+    /// Closed form, eight rays at once: [`Image`].
+    ClosedPackets,
+    /// Closed form, ray by ray: [`Program::along`](gsdf_nostd::Program::along) and `cast`.
+    ClosedRays,
+    /// Sphere tracing, eight rays at once: [`Packet::trace`].
+    TracedPackets,
+    /// Sphere tracing, ray by ray: [`SphereTracer::cast`](gsdf_nostd::SphereTracer::cast).
+    TracedRays,
+}
+
+/// How many rows a thread takes at a time.
+const BAND_ROWS: usize = 16;
+
+impl Contender {
+    /// All of them.
+    pub const ALL: [Self; 4] = [Self::ClosedPackets, Self::ClosedRays, Self::TracedPackets, Self::TracedRays];
+
+    /// Its name in reports.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::ClosedPackets => "closed form, packets",
+            Self::ClosedRays => "closed form, rays",
+            Self::TracedPackets => "sphere tracing, packets",
+            Self::TracedRays => "sphere tracing, rays",
+        }
+    }
+
+    /// Whether it marches.
+    #[must_use]
+    pub const fn is_traced(self) -> bool {
+        matches!(self, Self::TracedPackets | Self::TracedRays)
+    }
+
+    /// Renders the arena's picture into its part of the frame.
+    pub fn render(self, arena: &Arena<'_>, frame: &mut Frame) {
+        let width = arena.raster.width() as usize;
+        match self {
+            Self::ClosedPackets => {
+                Image::new(arena.program, arena.raster).render(frame.pixels.as_mut_slice());
+            }
+            Self::ClosedRays => in_bands(
+                &mut frame.pixels,
+                width,
+                || vec![Span::EMPTY; arena.program.leaves()],
+                |spans, y, row| closed_rays(arena, spans, y, row),
+            ),
+            Self::TracedPackets => in_bands(&mut frame.depths, width, || (), |(), y, row| traced_packets(arena, y, row)),
+            Self::TracedRays => in_bands(&mut frame.depths, width, || (), |(), y, row| traced_rays(arena, y, row)),
+        }
+    }
+}
+
+/// Renders row by row, in bands like those of [`Image`], with something of its own for each thread.
+fn in_bands<P: Send, S>(
+    plane: &mut [P],
+    width: usize,
+    own: impl Fn() -> S + Sync + Send,
+    row: impl Fn(&mut S, u32, &mut [P]) + Sync + Send,
+) {
+    let bands = plane.par_chunks_mut(width * BAND_ROWS).enumerate();
+    bands.for_each_init(own, |own, (band, pixels)| {
+        for (index, pixels) in pixels.chunks_mut(width).enumerate() {
+            row(own, (band * BAND_ROWS + index) as u32, pixels);
+        }
+    });
+}
+
+fn closed_rays(arena: &Arena<'_>, spans: &mut [Span<f32>], y: u32, row: &mut [Pixel]) {
+    for (x, pixel) in (0..).zip(row) {
+        let hit = ray(arena, x, y).and_then(|ray| arena.program.along(ray, spans).ok()?.cast());
+        *pixel = hit.map_or(Pixel::NOTHING, |hit| Pixel {
+            distance: hit.t,
+            normal: hit.normal.into(),
+            leaf: hit.leaf,
+        });
+    }
+}
+
+fn traced_packets(arena: &Arena<'_>, y: u32, row: &mut [f32]) {
+    let (zero, end) = (F32x8::splat(0.0), F32x8::splat(arena.end));
+    let centers = F32x8::new([0.5, 1.5, 2.5, 3.5, 4.5, 5.5, 6.5, 7.5]);
+    for (eight, depths) in row.chunks_mut(8).enumerate() {
+        let x = centers + F32x8::splat((8 * eight) as f32);
+        let (origin, direction) = arena.raster.line(x, F32x8::splat(y as f32 + 0.5));
+        let traced = Packet::from_lanes(origin, direction, zero, end).trace(&arena.tracer, &arena.program);
+        let shown = F32x8::select(traced.hit, traced.t, F32x8::INFINITY).to_array();
+        depths.copy_from_slice(&shown[..depths.len()]);
+    }
+}
+
+fn traced_rays(arena: &Arena<'_>, y: u32, row: &mut [f32]) {
+    for (x, depth) in (0..).zip(row) {
+        let traced = ray(arena, x, y)
+            .and_then(|ray| ray.within(0.0..arena.end).ok())
+            .map(|ray| arena.tracer.cast(&arena.program, &ray));
+        *depth = traced.filter(|traced| traced.hit).map_or(f32::INFINITY, |traced| traced.t);
+    }
+}
+
+fn ray(arena: &Arena<'_>, x: u32, y: u32) -> Option<Ray> {
+    arena.raster.ray(x, y).ok()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Contender;
+    use crate::arena::Arena;
+    use crate::frame::Frame;
+    use anyhow::Result;
+    use gsdf_demo::scenes;
+
+    #[test]
+    fn rays_and_packets_show_the_same_picture_bit_for_bit() -> Result<()> {
+        for scene in [scenes::s1(), scenes::s2(), scenes::s3()] {
+            // A width that is no multiple of eight, and a last band that is not full.
+            let arena = Arena::new(&scene, 37)?.relaxed(1.2);
+            let (mut packets, mut rays) = (Frame::new(arena.pixels()), Frame::new(arena.pixels()));
+            Contender::ClosedPackets.render(&arena, &mut packets);
+            Contender::ClosedRays.render(&arena, &mut rays);
+            Contender::TracedPackets.render(&arena, &mut packets);
+            Contender::TracedRays.render(&arena, &mut rays);
+            assert_eq!(packets.pixels, rays.pixels, "{}", arena.name);
+            assert_eq!(packets.depths, rays.depths, "{}", arena.name);
+        }
+        Ok(())
+    }
+
+    #[test]
+    fn the_marcher_is_nearly_right() -> Result<()> {
+        let scene = scenes::s2();
+        let arena = Arena::new(&scene, 64)?;
+        let mut frame = arena.exact();
+        Contender::TracedRays.render(&arena, &mut frame);
+        let wrong = frame.wrong().total();
+        assert!(wrong < 64 * 64 / 100, "{wrong} wrong pixels");
+        assert!(arena.end.is_finite());
+        Ok(())
+    }
+}
