@@ -1,10 +1,10 @@
 //! Packets of rays that leave surfaces: the [`Departure`](gsdf_nostd::Departure) of the scalar queries, eight at a time.
 //!
-//! There is no epsilon: each lane knows the leaf and the face it starts on, where its root is 0 exactly. All that takes is a [`Footing`] of one's own.
+//! There is no epsilon: each lane knows the leaf and the face it starts on, where its root is 0 exactly. All that takes is an [`OnSurface`] of lanes.
 
 use crate::frame::{Met, met};
 use glam::Vec3;
-use gsdf_nostd::{Footing, Ground, Line, Mask, Program, Ray, Real, Solid, Span, Toward, Transform, V3, march};
+use gsdf_nostd::{Line, Mask, OnSurface, Program, Ray, Real, Span, Toward, V3, march};
 use gsdf_simd::{F32x8, Hits, scratch};
 
 /// A place on a surface.
@@ -30,41 +30,13 @@ impl Place {
     }
 
     fn between(origin: Vec3, point: Vec3, met: Met) -> Self {
-        let far = |v: Vec3| v.abs().max_element();
         Self {
             point,
             normal: met.normal,
             leaf: met.leaf,
             face: met.face,
-            slack: (far(origin) + far(point)) * ROUNDING,
+            slack: OnSurface::slack(origin, point),
         }
-    }
-}
-
-/// What the library takes for the rounding of a point that was hit: 32 units roundoff of its coordinates' size.
-const ROUNDING: f32 = 32.0 / 16_777_216.0;
-
-/// What eight places are known to lie on.
-#[derive(Clone, Copy)]
-struct OnSurfaces {
-    leaf: F32x8,
-    face: F32x8,
-    slack: F32x8,
-}
-
-impl<L: Solid> Footing<L, F32x8> for OnSurfaces {
-    #[inline(always)]
-    fn seen(self, number: u32, solid: &L, line: &Line<F32x8>, pose: Option<&Transform>) -> L::Seen<F32x8> {
-        let splat = F32x8::splat;
-        let (moved, per_stretch) = match pose {
-            Some(pose) => (pose.origin().abs().max_element(), 1.0 / pose.stretch()),
-            None => (0.0, 1.0),
-        };
-        let ground = Ground {
-            tolerance: (self.slack + splat(moved * ROUNDING)) * splat(per_stretch),
-            face: F32x8::select(self.leaf.eq(splat(number as f32)), self.face, splat(-1.0)),
-        };
-        solid.grounded(solid.seen_from(line.origin), &ground)
     }
 }
 
@@ -121,7 +93,7 @@ impl<'a> Leaver<'a> {
 }
 
 /// Up to eight ways as lanes; those beyond the last repeat it.
-fn lanes(ways: &[(Place, Vec3)]) -> (Line<F32x8>, OnSurfaces) {
+fn lanes(ways: &[(Place, Vec3)]) -> (Line<F32x8>, OnSurface<F32x8>) {
     let of = |value: &dyn Fn(&(Place, Vec3)) -> f32| F32x8::new(core::array::from_fn(|lane| value(&ways[lane.min(ways.len() - 1)])));
     let vector =
         |value: &dyn Fn(&(Place, Vec3)) -> Vec3| V3::new(of(&|way| value(way).x), of(&|way| value(way).y), of(&|way| value(way).z));
@@ -129,7 +101,7 @@ fn lanes(ways: &[(Place, Vec3)]) -> (Line<F32x8>, OnSurfaces) {
         origin: vector(&|way| way.0.point),
         toward: Toward::new(vector(&|way| way.1)),
     };
-    let footing = OnSurfaces {
+    let footing = OnSurface {
         leaf: of(&|way| way.0.leaf as f32),
         face: of(&|way| f32::from(way.0.face)),
         slack: of(&|way| way.0.slack),

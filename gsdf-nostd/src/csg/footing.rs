@@ -6,6 +6,7 @@ use crate::ray::Line;
 use crate::real::Real;
 use crate::span::Span;
 use crate::transform::Transform;
+use glam::Vec3;
 
 /// What is known of the place where a line starts: how the leaves look from there.
 pub trait Footing<L: Solid, T: Real>: Copy {
@@ -59,16 +60,36 @@ impl<L: Solid, T: Real> Footing<L, T> for SeenFrom<'_, L::Seen<T::Scalar>> {
     }
 }
 
-/// The place is on a face of a leaf.
+/// The place is on a face of a leaf: each lane's on one of its own.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct OnSurface {
-    pub(super) leaf: u32,
-    pub(super) face: u8,
-    /// How far the place may be off its surface by rounding alone.
-    pub(super) slack: f32,
+pub struct OnSurface<T> {
+    /// The number of the leaf.
+    pub leaf: T,
+    /// The number of its face.
+    pub face: T,
+    /// How far the place may be off its surface by rounding alone; see [`slack`](OnSurface::slack).
+    pub slack: T,
 }
 
-impl<L: Solid, T: Real> Footing<L, T> for OnSurface {
+impl OnSurface<f32> {
+    /// How far a point may be off the surface by rounding alone, where a ray from `origin` hit it.
+    #[must_use]
+    pub fn slack(origin: Vec3, point: Vec3) -> f32 {
+        (max_norm(origin) + max_norm(point)) * Ground::<f32>::ROUNDING
+    }
+
+    /// The same for all lanes of the arithmetic of `like`.
+    #[inline(always)]
+    pub(super) fn splat_like<T: Real>(self, like: T) -> OnSurface<T> {
+        OnSurface {
+            leaf: like.splat_like(self.leaf),
+            face: like.splat_like(self.face),
+            slack: like.splat_like(self.slack),
+        }
+    }
+}
+
+impl<L: Solid, T: Real> Footing<L, T> for OnSurface<T> {
     #[inline(always)]
     fn seen(self, number: u32, solid: &L, line: &Line<T>, pose: Option<&Transform>) -> L::Seen<T> {
         let like = line.toward.vv;
@@ -77,10 +98,10 @@ impl<L: Solid, T: Real> Footing<L, T> for OnSurface {
             Some(pose) => (max_norm(pose.origin()), 1.0 / pose.stretch()),
             None => (0.0, 1.0),
         };
-        let face = if number == self.leaf { f32::from(self.face) } else { -1.0 };
+        let here = self.leaf.eq(like.splat_like(number as f32));
         let ground = Ground {
-            tolerance: like.splat_like((self.slack + moved * Ground::<f32>::ROUNDING) * per_stretch),
-            face: like.splat_like(face),
+            tolerance: (self.slack + like.splat_like(moved * Ground::<f32>::ROUNDING)) * like.splat_like(per_stretch),
+            face: T::select(here, self.face, like.splat_like(-1.0)),
         };
         solid.grounded(solid.seen_from(line.origin), &ground)
     }

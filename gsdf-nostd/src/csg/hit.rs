@@ -1,8 +1,7 @@
 //! What a query finds.
 
+use super::footing::OnSurface;
 use super::lanes::Encounter;
-use crate::leaf::Ground;
-use crate::range::max_norm;
 use crate::ray::Ray;
 use crate::real::Lane;
 use glam::Vec3;
@@ -39,7 +38,7 @@ impl Hit {
             leaf: met.leaf.to_index(),
             face: face_number(met.surface.face),
             entering: met.entering,
-            slack: (max_norm(ray.origin()) + max_norm(point)) * Ground::<f32>::ROUNDING,
+            slack: OnSurface::slack(ray.origin(), point),
         }
     }
 }

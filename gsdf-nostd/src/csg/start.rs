@@ -56,7 +56,7 @@ impl Start for Ray {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Departure {
     ray: Ray,
-    footing: OnSurface,
+    footing: OnSurface<f32>,
 }
 
 impl Departure {
@@ -66,8 +66,8 @@ impl Departure {
     /// Where `direction` is not finite or zero, or the hit lies beyond ±2^30.
     pub fn new(hit: &Hit, direction: Vec3) -> Result<Self, RayError> {
         let footing = OnSurface {
-            leaf: hit.leaf,
-            face: hit.face,
+            leaf: hit.leaf as f32,
+            face: f32::from(hit.face),
             slack: hit.slack,
         };
         let ray = Ray::new(hit.point, direction)?;
@@ -90,10 +90,11 @@ impl Start for Departure {
     }
 
     fn spans<L: Solid, T: Lane>(&self, program: &Program<'_, L>, spans: &mut [Span<T>]) {
-        program.spans_along(&self.ray.line(T::from(0.0)), self.footing, spans);
+        let like = T::from(0.0);
+        program.spans_along(&self.ray.line(like), self.footing.splat_like(like), spans);
     }
 
     fn surface<L: Solid, T: Lane>(&self, program: &Program<'_, L>, spans: &[Span<T>], t: T) -> Encounter<T> {
-        program.surface_at(&self.ray.line(t), self.footing, spans, t)
+        program.surface_at(&self.ray.line(t), self.footing.splat_like(t), spans, t)
     }
 }
