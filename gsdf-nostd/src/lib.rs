@@ -66,6 +66,9 @@
 //! A program links the formulas of its leaf type's solids and no others: [`leaf_set!`] makes a leaf type of the ones
 //! a scene needs, your own among them ([`Solid`]). No function in this crate allocates, recurses or panics.
 //!
+//! The feature `std` (off by default) takes the square root from the standard library: the same bits, and faster where a
+//! build is made for a particular processor.
+//!
 //! # Arithmetic
 //! Every formula is written once, over [`Real`], and runs in `f32`, in `f64` and in packets of lanes (crate
 //! `gsdf-simd`) with the same bits per lane. The functions on slices of nodes and spans ([`sweep`], [`march`],
@@ -76,7 +79,7 @@
 //! formulas printed there miss a sign, a factor or a case. S. Roth, Ray Casting for Modeling Solids (1982). I.
 //! Quilez, Distance functions. E. Haines, J. Günther, T. Akenine-Möller, Precision Improvements for Ray/Sphere
 //! Intersection (2019).
-#![no_std]
+#![cfg_attr(not(feature = "std"), no_std)]
 #![forbid(unsafe_code)]
 #![cfg_attr(not(test), warn(clippy::default_numeric_fallback))]
 

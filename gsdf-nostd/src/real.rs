@@ -174,7 +174,15 @@ macro_rules! real_scalar {
     };
 }
 
+// Both are correctly rounded. The standard library's is the compiler's own, which it schedules and encodes for the
+// processor it builds for; without it there is libm's.
+#[cfg(feature = "std")]
+real_scalar!(f32, f32::sqrt);
+#[cfg(feature = "std")]
+real_scalar!(f64, f64::sqrt);
+#[cfg(not(feature = "std"))]
 real_scalar!(f32, libm::sqrtf);
+#[cfg(not(feature = "std"))]
 real_scalar!(f64, libm::sqrt);
 
 #[cfg(test)]

@@ -16,8 +16,9 @@ pub struct Packet {
     line: Line<F32x8>,
     /// By what the directions were scaled.
     scale: F32x8,
-    /// The ranges, in the parameter of `line`. Lanes without a ray start at the end of all things.
+    /// Where the ranges start, in the parameter of `line`. Lanes without a ray start at the end of all things.
     start: F32x8,
+    /// Where they end, in the parameter of the rays, as single rays compare it.
     end: F32x8,
     valid: Mask8,
 }
@@ -109,7 +110,7 @@ impl Packet {
             },
             scale,
             start: F32x8::select(valid, start / scale, F32x8::INFINITY),
-            end: F32x8::select(valid, end / scale, F32x8::NEG_INFINITY),
+            end: F32x8::select(valid, end, F32x8::NEG_INFINITY),
             valid,
         }
     }
@@ -145,7 +146,7 @@ impl Packet {
     /// Sphere tracing of each ray through its range, over the standard distance.
     #[must_use]
     pub fn trace<F: Field>(&self, tracer: &SphereTracer, field: &F) -> Traced<F32x8> {
-        let traced = tracer.trace(field, &self.line, self.start, self.end);
+        let traced = tracer.trace(field, &self.line, self.start, self.end / self.scale);
         Traced {
             t: traced.t * self.scale,
             ..traced
@@ -158,7 +159,8 @@ impl Packet {
         let nothing = F32x8::INFINITY;
         program.spans_along(&self.line, footing, spans);
         let found = march(program.nodes(), spans, self.start);
-        let hit = found.t.lt(self.end) & found.t.lt(nothing);
+        let along = found.t * self.scale;
+        let hit = along.lt(self.end) & along.lt(nothing);
         let t = F32x8::select(hit, found.t, nothing);
         let met = if hit.any() {
             program.surface_at(&self.line, footing, spans, t)
@@ -173,7 +175,7 @@ impl Packet {
             }
         };
         Hits {
-            t: t * self.scale,
+            t: F32x8::select(hit, along, nothing),
             hit,
             met,
             sweeps: found.sweeps,
