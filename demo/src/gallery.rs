@@ -90,7 +90,7 @@ impl Gallery {
             "{size} x {size} pixels, threads: {threads}. Packets of eight f32 rays, every ray against every leaf.\n\
              ns/pixel: casting one ray per pixel, with normal and leaf but no light, from the first pixel to the last on all threads; the\n\
              least of the repeats that fit into 0.2 s. thread: the same times the threads, what a pixel costs one of them.\n\
-             sweeps: walks over the program per packet, on average and at most. seconds: the whole picture, with light and smooth edges.\n\
+             sweeps: walks over the program per ray, on average and at most. seconds: the whole picture, with light and smooth edges.\n\
              {:<9} {:>6} {:>9} {:>9} {:>9} {:>7} {:>6} {:>8}  {}",
             "scene",
             "leaves",
@@ -116,11 +116,11 @@ fn row(scene: &Scene, picture: &Picture, seconds: f64, path: Option<&Path>) -> R
         "{:<9} {:>6} {:>9} {:>9.1} {:>9.1} {:>7.2} {:>6} {:>8.2}  {}",
         scene.name,
         scene.program()?.leaves(),
-        cost.tally.hits,
+        cost.hits,
         cost.nanoseconds(),
         cost.nanoseconds() * cost.threads as f64,
         cost.mean_sweeps(),
-        cost.tally.most_sweeps,
+        cost.most_sweeps,
         seconds,
         path.unwrap_or(Path::new("")).display()
     );

@@ -1,6 +1,6 @@
 //! What one ray sees of one solid: a half-open span of its parameter.
 
-use crate::real::{Mask, Real};
+use crate::real::Real;
 
 /// The part of a ray inside a convex solid: the parameters `enter <= t < exit`.
 ///
@@ -87,12 +87,6 @@ impl<T: Real> Span<T> {
     #[inline(always)]
     pub fn contains_after(self, t: T) -> T::Mask {
         self.enter.le(t) & t.lt(self.exit)
-    }
-
-    /// Whether the span has any point in any lane.
-    #[inline(always)]
-    pub fn is_inhabited(self) -> bool {
-        self.enter.lt(self.exit).any()
     }
 }
 

@@ -28,7 +28,7 @@ impl<const N: usize, L: Solid> Csg<N, L> {
     /// The first crossing beyond a hit, along another direction: [`cast`](Self::cast) of the [`Departure`] from it.
     ///
     /// # Errors
-    /// Where `direction` is not finite or zero.
+    /// Where `direction` is no [`Ray`]'s, or the hit lies beyond ±2^30.
     pub fn cast_from(&self, hit: &Hit, direction: Vec3) -> Result<Option<Hit>, RayError> {
         Ok(self.along(Departure::new(hit, direction)?).cast())
     }

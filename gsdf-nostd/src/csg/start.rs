@@ -63,7 +63,7 @@ impl Departure {
     /// The ray from `hit` along `direction`.
     ///
     /// # Errors
-    /// Where `direction` is not finite or zero, or the hit lies beyond ±2^30.
+    /// Where `direction` is no [`Ray`]'s, or the hit lies beyond ±2^30.
     pub fn new(hit: &Hit, direction: Vec3) -> Result<Self, RayError> {
         let footing = OnSurface {
             leaf: hit.leaf as f32,
