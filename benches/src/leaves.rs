@@ -2,7 +2,8 @@
 
 use glam::{Vec3, vec3};
 use gsdf_nostd::{
-    CappedCone, CappedCylinder, Capsule, Cone, Cuboid, Cylinder, HalfSpace, Invalid, Line, Nappe, Real, Solid, Sphere, Toward, V3,
+    CappedCone, CappedCylinder, Capsule, Cone, Cuboid, Cylinder, HalfSpace, HexagonalPrism, Invalid, Line, Nappe, Octahedron, Pyramid, Real,
+    Rhombus, Solid, Sphere, Toward, TriangularPrism, V3,
 };
 
 /// Something done with a leaf of each kind.
@@ -26,6 +27,12 @@ pub fn visit_leaves(visitor: &mut impl Visitor) {
     visitor.leaf("cone", made(Cone::new(high, low, Vec3::NEG_Y, 0.75)));
     visitor.leaf("capped cone", made(CappedCone::new(low, high, Vec3::Y, 0.75, 0.25)));
     visitor.leaf("capsule", made(Capsule::new(low, high, 0.5)));
+    visitor.leaf("hexagonal prism", made(HexagonalPrism::new(low, high.y, 0.75)));
+    visitor.leaf("triangular prism", made(TriangularPrism::new(low, high.y, 0.5)));
+    visitor.leaf("octahedron", made(Octahedron::new(Vec3::ZERO, 1.0)));
+    visitor.leaf("pyramid", made(Pyramid::new(low, 0.75, 1.5)));
+    visitor.leaf("rhombus", made(Rhombus::new(low, high.y, 1.0, 0.625, 0.0)));
+    visitor.leaf("rounded rhombus", made(Rhombus::new(low, high.y, 0.75, 0.5, 0.25)));
 }
 
 fn made<S>(solid: Result<S, Invalid>) -> S {

@@ -72,7 +72,8 @@ impl Cuboid {
     }
 }
 
-const fn extent(parameter: &'static str, value: f32) -> Result<(), Invalid> {
+/// Refuses the distance from a lower face to an upper one unless it is at least [`MIN_LENGTH`].
+pub(super) const fn extent(parameter: &'static str, value: f32) -> Result<(), Invalid> {
     if value <= 0.0 {
         Err(Invalid::new(parameter, value, Fault::Reversed))
     } else if value < MIN_LENGTH {

@@ -91,6 +91,18 @@ impl<T: Real> SeenSide<T> {
         }
     }
 
+    /// The side whose offset was taken, and perhaps settled, before.
+    #[inline(always)]
+    pub(super) fn with_offset(self, c: T) -> Self {
+        Self { c, ..self }
+    }
+
+    /// `W.W - r² a.a`.
+    #[inline(always)]
+    pub(super) fn offset(&self) -> T {
+        self.c
+    }
+
     #[inline(always)]
     pub(super) fn lift(seen: &SeenSide<T::Scalar>, like: T) -> Self {
         Self {

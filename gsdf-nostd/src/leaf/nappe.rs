@@ -94,7 +94,7 @@ impl Nappe {
     }
 
     #[inline(always)]
-    fn profile<T: Real>(&self, like: T) -> Profile<T> {
+    pub(super) fn profile<T: Real>(&self, like: T) -> Profile<T> {
         Profile {
             axis: V3::splat(like, self.axis),
             r: like.splat_like(0.0),
