@@ -137,8 +137,10 @@ impl Ray {
         self.origin + self.direction * t
     }
 
-    /// The line the formulas see: the ray with its direction scaled, exactly, to a largest component in [1, 2).
-    pub(crate) fn line<T: Real<Scalar = T>>(&self, like: T) -> Line<T> {
+    /// The line the formulas see, in the arithmetic of `like`: the ray with its direction scaled, exactly, to a largest
+    /// component in [1, 2). Its parameter is another one, see [`parameter_of`](Self::parameter_of).
+    #[inline]
+    pub fn line<T: Real<Scalar = T>>(&self, like: T) -> Line<T> {
         let scale = like.splat_like(self.scale);
         Line {
             origin: V3::splat(like, self.origin),
@@ -147,13 +149,15 @@ impl Ray {
     }
 
     /// The parameter on [`line`](Self::line) that belongs to a parameter of this ray; exact unless it overflows.
-    pub(crate) fn parameter_on_line<T: Real>(self, t: T) -> T {
+    #[inline]
+    pub fn parameter_on_line<T: Real>(self, t: T) -> T {
         t / t.splat_like(self.scale)
     }
 
     /// The parameter of this ray that belongs to a parameter on [`line`](Self::line); exact unless it overflows to
     /// infinity.
-    pub(crate) fn parameter_of<T: Real>(self, t: T) -> T {
+    #[inline]
+    pub fn parameter_of<T: Real>(self, t: T) -> T {
         t * t.splat_like(self.scale)
     }
 }
