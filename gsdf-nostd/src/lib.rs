@@ -68,6 +68,9 @@
 //!
 //! The feature `std` (off by default) takes the square root from the standard library: the same bits, and faster where a
 //! build is made for a particular processor. It changes nothing where there is no operating system.
+//! The feature `defmt` (off by default) lets a firmware log rays, hits, errors, solids and programs: `defmt::Format`.
+//!
+//! The guide for microcontrollers is [`embedding`].
 //!
 //! # Arithmetic
 //! Every formula is written once, over [`Real`], and runs in `f32`, in `f64` and in packets of lanes (crate
@@ -83,8 +86,14 @@
 #![forbid(unsafe_code)]
 #![cfg_attr(not(test), warn(clippy::default_numeric_fallback))]
 
+#[cfg(any(doc, doctest))]
+#[doc = include_str!("../docs/embedding.md")]
+pub mod embedding {}
+
 mod camera;
 mod csg;
+#[cfg(feature = "defmt")]
+mod format;
 mod invalid;
 mod leaf;
 mod quadratic;

@@ -83,7 +83,8 @@ impl<const N: usize, L: Solid> Csg<N, L> {
 impl<'a, L: Solid, S, R: Start> Sight<'a, L, S, R> {
     /// The first crossing within the ray's range, with its normal.
     ///
-    /// Of the arithmetic of the spans a [`Hit`] keeps the nearest `f32` numbers.
+    /// Of the arithmetic of the spans a [`Hit`] keeps the nearest `f32` numbers; a crossing beyond all finite ones is
+    /// none, and one just before the range's end may be rounded to it.
     #[must_use]
     pub fn cast<T: Lane>(&self) -> Option<Hit>
     where
@@ -91,8 +92,12 @@ impl<'a, L: Solid, S, R: Start> Sight<'a, L, S, R> {
     {
         let ray = self.ray();
         let found = self.march_from(ray.parameter_on_line(T::from(ray.range().start)))?;
+        let t = ray.parameter_of(found);
+        if !t.to_f32().is_finite() {
+            return None;
+        }
         let met = self.start.surface(&self.program, self.spans.as_ref(), found);
-        Some(Hit::new(ray, ray.parameter_of(found), &met))
+        Some(Hit::new(ray, t, &met))
     }
 
     /// The ray this is seen along.
