@@ -32,15 +32,15 @@ pub fn queries() -> Queries {
     Queries::new()
 }
 
-/// The hash of what each ray hits first; a ray that is none counts as refused.
+/// The hash of what each ray hits first, in the arithmetic of the scratch memory; a ray that is none counts as refused.
 ///
 /// # Errors
 /// Where `scratch` is shorter than [`SPANS`].
-pub fn hits(scratch: &mut [Span<f32>]) -> Result<u64, ProgramError> {
+pub fn hits<T: Lane>(scratch: &mut [Span<T>]) -> Result<u64, ProgramError> {
     let mut digest = Digest::new();
     for query in queries() {
         match query.ray() {
-            Ok(ray) => digest.cast(program(query.program).along(ray, scratch)?.cast().as_ref()),
+            Ok(ray) => digest.cast(program(query.program).along(ray, &mut *scratch)?.cast().as_ref()),
             Err(_) => digest.refused(),
         }
     }
@@ -72,11 +72,12 @@ pub fn readings<T: Lane>(scratch: &mut [Span<T>]) -> Result<u64, ProgramError> {
     Ok(digest.finish())
 }
 
-/// The hash of what is hit next from where every third ray hits first: straight on and mirrored by turns.
+/// The hash of what is hit next from where every third ray hits first: straight on and mirrored by turns;
+/// in the arithmetic of the scratch memory.
 ///
 /// # Errors
 /// Where `scratch` is shorter than [`SPANS`].
-pub fn departures(scratch: &mut [Span<f32>]) -> Result<u64, ProgramError> {
+pub fn departures<T: Lane>(scratch: &mut [Span<T>]) -> Result<u64, ProgramError> {
     let mut digest = Digest::new();
     for (number, query) in queries().step_by(STRIDE).enumerate() {
         let program = program(query.program);

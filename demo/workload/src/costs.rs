@@ -1,13 +1,13 @@
 //! The queries whose cost is measured: the same ones on every target, whatever is measured of them.
 
-use crate::scenes::Scene;
+use crate::scenes::{S1, S2, S3, Scene};
 use crate::solids::{self, Visitor};
 use core::fmt;
 use core::hint::black_box;
 use glam::{Vec3, vec3};
 use gsdf_nostd::{Camera, Invalid, Lane, ProgramError, Ray, RayError, Solid, Span, SphereTracer, V3};
 
-/// The queries of a kind of solid, and the rays along each side of a scene's picture.
+/// The rays along each side of the pictures whose rays are measured, of a solid and of a scene.
 pub const SIDE: u32 = 8;
 
 /// Something that takes the measure of queries: their instructions, their operations.
@@ -90,6 +90,22 @@ impl From<ProgramError> for CostError {
     }
 }
 
+/// The scenes whose rays are measured: those a small processor casts in reasonable time.
+const SCENES: [&Scene; 3] = [&S1, &S2, &S3];
+
+/// The leaves of the largest of them.
+const LEAVES: usize = S3.program.leaves();
+
+/// Measures everything, in the arithmetic `T`: [`of_leaves`], and [`of_scene`] for the scenes of up to 64 leaves.
+///
+/// # Errors
+/// Never.
+pub fn of_everything<T: Lane>(arithmetic: &'static str, meter: &mut impl Meter) -> Result<(), CostError> {
+    of_leaves::<T>(arithmetic, meter)?;
+    let mut scratch = [Span::empty_like(T::from(0.0)); LEAVES];
+    SCENES.iter().try_for_each(|scene| of_scene(scene, arithmetic, &mut scratch, meter))
+}
+
 /// The rays at a solid of [`solids`]: a picture of it, from outside and above.
 fn rays() -> Result<impl Iterator<Item = Result<Ray, RayError>>, Invalid> {
     let raster = Camera::pinhole(vec3(2.3, 1.9, -3.1), Vec3::ZERO, Vec3::Y, 0.3)?.raster(SIDE, SIDE);
@@ -120,7 +136,7 @@ pub fn of_leaves<T: Lane>(arithmetic: &'static str, meter: &mut impl Meter) -> R
                 arithmetic: self.arithmetic,
             };
             for ray in rays()? {
-                let (p, v) = { black_box(ray.map(|ray| (ray.origin(), ray.direction()))?) };
+                let (p, v) = black_box(ray.map(|ray| (ray.origin(), ray.direction()))?);
                 black_box(self.meter.query(|| gsdf(black_box(solid), p, v, self.zero)));
             }
             self.meter.finish(&item("gsdf"));
