@@ -5,5 +5,5 @@ pub mod board;
 mod query;
 mod rows;
 
-pub use query::ask;
+pub use query::{ask, ask_distance};
 pub use rows::all_are_right;

@@ -4,7 +4,7 @@ use crate::attribution::Rooms;
 use crate::image::Image;
 
 /// The images that are measured, of which each holds what the next column of a table is about.
-pub(crate) const MEASURED: [&str; 4] = ["baseline", "spheres", "block", "everything"];
+pub(crate) const MEASURED: [&str; 5] = ["baseline", "distance", "spheres", "block", "everything"];
 
 /// The image that holds all that [`FORBIDDEN`] finds.
 pub(crate) const CONTROL: &str = "forbidden";

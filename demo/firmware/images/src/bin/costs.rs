@@ -2,8 +2,8 @@
 #![no_std]
 #![no_main]
 
-use gsdf_firmware::ask;
 use gsdf_firmware::board::{self, println};
+use gsdf_firmware::{ask, ask_distance};
 use gsdf_parts::Fpu;
 use gsdf_workload::costs::{self, Item, Meter};
 
@@ -31,10 +31,14 @@ impl Meter for Instructions {
     }
 }
 
-/// The stack of a cast, everything in it included.
+/// The stack of the queries of the images that are named.
 fn measure_stack() {
-    println!("stack cast/spheres {}", board::stack_used_by(|| ask(&spheres::SCENE)));
-    println!("stack cast/everything {}", board::stack_used_by(|| ask(&everything::SCENE)));
+    println!("stack spheres {}", board::stack_used_by(|| ask(&spheres::SCENE)));
+    println!("stack everything {}", board::stack_used_by(|| ask(&everything::SCENE)));
+    println!(
+        "stack distance {}",
+        board::stack_used_by(|| ask_distance::<4, 7, _>(&spheres::SCENE))
+    );
 }
 
 mod spheres {
