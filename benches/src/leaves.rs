@@ -1,43 +1,8 @@
-//! The leaves, one of each kind, and the kernels whose cost is measured on them.
+//! The kernels whose cost is measured on a leaf of each kind.
 
-use glam::{Vec3, vec3};
-use gsdf_nostd::{
-    CappedCone, CappedCylinder, Capsule, Cone, Cuboid, Cylinder, HalfSpace, HexagonalPrism, Invalid, Line, Nappe, Octahedron, Pyramid, Real,
-    Rhombus, Solid, Sphere, Toward, TriangularPrism, V3,
-};
+use gsdf_nostd::{Line, Real, Solid, Toward, V3};
 
-/// Something done with a leaf of each kind.
-pub trait Visitor {
-    /// Does it with one of them.
-    fn leaf<S: Solid>(&mut self, name: &'static str, solid: S);
-}
-
-/// Shows one leaf of each kind to the visitor. All stand upright around the origin and are about one unit in size.
-///
-/// # Panics
-/// Never: the parameters stand in this source, and a test visits all of them.
-pub fn visit_leaves(visitor: &mut impl Visitor) {
-    let (low, high) = (vec3(0.0, -0.75, 0.0), vec3(0.0, 0.75, 0.0));
-    visitor.leaf("half-space", made(HalfSpace::new(Vec3::ZERO, Vec3::Y)));
-    visitor.leaf("sphere", made(Sphere::new(Vec3::ZERO, 1.0)));
-    visitor.leaf("cylinder", made(Cylinder::new(Vec3::ZERO, Vec3::Y, 0.75)));
-    visitor.leaf("nappe", made(Nappe::new(low, Vec3::Y, 0.5, 1.0)));
-    visitor.leaf("cuboid", made(Cuboid::new(vec3(-0.75, -0.5, -1.0), vec3(0.75, 0.5, 1.0))));
-    visitor.leaf("capped cylinder", made(CappedCylinder::new(low, high, Vec3::Y, 0.75)));
-    visitor.leaf("cone", made(Cone::new(high, low, Vec3::NEG_Y, 0.75)));
-    visitor.leaf("capped cone", made(CappedCone::new(low, high, Vec3::Y, 0.75, 0.25)));
-    visitor.leaf("capsule", made(Capsule::new(low, high, 0.5)));
-    visitor.leaf("hexagonal prism", made(HexagonalPrism::new(low, high.y, 0.75)));
-    visitor.leaf("triangular prism", made(TriangularPrism::new(low, high.y, 0.5)));
-    visitor.leaf("octahedron", made(Octahedron::new(Vec3::ZERO, 1.0)));
-    visitor.leaf("pyramid", made(Pyramid::new(low, 0.75, 1.5)));
-    visitor.leaf("rhombus", made(Rhombus::new(low, high.y, 1.0, 0.625, 0.0)));
-    visitor.leaf("rounded rhombus", made(Rhombus::new(low, high.y, 0.75, 0.5, 0.25)));
-}
-
-fn made<S>(solid: Result<S, Invalid>) -> S {
-    solid.unwrap_or_else(|error| panic!("a solid of this source: {error}"))
-}
+pub use gsdf_workload::solids::{Visitor, visit as visit_leaves};
 
 /// The generalized signed distance of a leaf in any arithmetic: all of the work, what depends on the origin or the direction alone included.
 ///

@@ -20,6 +20,7 @@ pub struct Camera {
 
 /// How a camera's rays spread.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Projection {
     /// All rays start at the eye: perspective.
     Pinhole,

@@ -67,7 +67,10 @@
 //! a scene needs, your own among them ([`Solid`]). No function in this crate allocates, recurses or panics.
 //!
 //! The feature `std` (off by default) takes the square root from the standard library: the same bits, and faster where a
-//! build is made for a particular processor.
+//! build is made for a particular processor. It changes nothing where there is no operating system.
+//! The feature `defmt` (off by default) lets a firmware log rays, hits, errors, solids and programs: `defmt::Format`.
+//!
+//! The guide for microcontrollers is [`embedding`].
 //!
 //! # Arithmetic
 //! Every formula is written once, over [`Real`], and runs in `f32`, in `f64` and in packets of lanes (crate
@@ -79,18 +82,25 @@
 //! formulas printed there miss a sign, a factor or a case. S. Roth, Ray Casting for Modeling Solids (1982). I.
 //! Quilez, Distance functions. E. Haines, J. Günther, T. Akenine-Möller, Precision Improvements for Ray/Sphere
 //! Intersection (2019).
-#![cfg_attr(not(feature = "std"), no_std)]
+#![no_std]
 #![forbid(unsafe_code)]
 #![cfg_attr(not(test), warn(clippy::default_numeric_fallback))]
 
+#[cfg(any(doc, doctest))]
+#[doc = include_str!("../docs/embedding.md")]
+pub mod embedding {}
+
 mod camera;
 mod csg;
+#[cfg(feature = "defmt")]
+mod format;
 mod invalid;
 mod leaf;
 mod quadratic;
 mod range;
 mod ray;
 mod real;
+mod root;
 mod shape;
 mod span;
 mod toward;

@@ -44,9 +44,19 @@ pub(crate) const fn unit_scale(value: f32) -> f32 {
     }
 }
 
-/// The largest magnitude of a component.
+/// The largest magnitude of a component; NaN counts as larger than infinity.
 pub(crate) const fn max_norm(v: Vec3) -> f32 {
-    larger(v.x.abs(), larger(v.y.abs(), v.z.abs()))
+    f32::from_bits(max_norm_bits(v))
+}
+
+/// The bits of [`max_norm`].
+///
+/// Magnitudes are ordered as their bits are, with NaN beyond infinity: one comparison of integers finds what is out of
+/// range and what is no number at all, also on a processor that has no floating point.
+pub(crate) const fn max_norm_bits(v: Vec3) -> u32 {
+    let (x, y, z) = (v.x.abs().to_bits(), v.y.abs().to_bits(), v.z.abs().to_bits());
+    let most = if x < y { y } else { x };
+    if most < z { z } else { most }
 }
 
 /// The larger of two numbers, in `const`.

@@ -1,6 +1,6 @@
 //! Rays, refused when they are not rays.
 
-use crate::range::{MAX_LENGTH, MAX_SPEED, max_norm, unit_scale};
+use crate::range::{MAX_LENGTH, MAX_SPEED, max_norm, max_norm_bits, unit_scale};
 use crate::real::Real;
 use crate::toward::Toward;
 use crate::vec3::V3;
@@ -70,31 +70,34 @@ impl Ray {
     /// Where a component is not finite, the origin is beyond ±2^30, the direction is zero, or its largest component
     /// is not from 2^-40 to 2^40.
     pub const fn new(origin: Vec3, direction: Vec3) -> Result<Self, RayError> {
-        if !is_finite(origin) {
-            return Err(RayError::OriginNotFinite(origin));
-        }
-        if !is_in_range(origin) {
-            return Err(RayError::OriginTooFar(origin));
-        }
-        if !is_finite(direction) {
-            return Err(RayError::DirectionNotFinite(direction));
-        }
-        let largest = max_norm(direction);
-        if largest == 0.0 {
-            return Err(RayError::DirectionZero(direction));
-        }
-        if largest < 1.0 / MAX_SPEED {
-            return Err(RayError::DirectionTooShort(direction));
-        }
-        if largest > MAX_SPEED {
-            return Err(RayError::DirectionTooLong(direction));
+        let (far, fast) = (max_norm_bits(origin), max_norm_bits(direction));
+        if far > MAX_LENGTH.to_bits() || fast < MIN_SPEED.to_bits() || fast > MAX_SPEED.to_bits() {
+            return Err(Self::refusal(origin, direction));
         }
         Ok(Self {
             origin,
             direction,
-            scale: unit_scale(largest),
+            scale: unit_scale(f32::from_bits(fast)),
             range: (0.0, f32::INFINITY),
         })
+    }
+
+    /// Why these two make no ray, apart from [`new`](Self::new) so that this is little code.
+    #[cold]
+    const fn refusal(origin: Vec3, direction: Vec3) -> RayError {
+        if !is_finite(origin) {
+            RayError::OriginNotFinite(origin)
+        } else if !is_in_range(origin) {
+            RayError::OriginTooFar(origin)
+        } else if !is_finite(direction) {
+            RayError::DirectionNotFinite(direction)
+        } else if max_norm(direction) == 0.0 {
+            RayError::DirectionZero(direction)
+        } else if max_norm(direction) < MIN_SPEED {
+            RayError::DirectionTooShort(direction)
+        } else {
+            RayError::DirectionTooLong(direction)
+        }
     }
 
     /// The same ray over another range of its parameter. What happens at `range.start` itself counts as past, what
@@ -137,8 +140,10 @@ impl Ray {
         self.origin + self.direction * t
     }
 
-    /// The line the formulas see: the ray with its direction scaled, exactly, to a largest component in [1, 2).
-    pub(crate) fn line<T: Real<Scalar = T>>(&self, like: T) -> Line<T> {
+    /// The line the formulas see, in the arithmetic of `like`: the ray with its direction scaled, exactly, to a largest
+    /// component in [1, 2). Its parameter is another one, see [`parameter_of`](Self::parameter_of).
+    #[inline]
+    pub fn line<T: Real<Scalar = T>>(&self, like: T) -> Line<T> {
         let scale = like.splat_like(self.scale);
         Line {
             origin: V3::splat(like, self.origin),
@@ -147,13 +152,15 @@ impl Ray {
     }
 
     /// The parameter on [`line`](Self::line) that belongs to a parameter of this ray; exact unless it overflows.
-    pub(crate) fn parameter_on_line<T: Real>(self, t: T) -> T {
+    #[inline]
+    pub fn parameter_on_line<T: Real>(self, t: T) -> T {
         t / t.splat_like(self.scale)
     }
 
     /// The parameter of this ray that belongs to a parameter on [`line`](Self::line); exact unless it overflows to
     /// infinity.
-    pub(crate) fn parameter_of<T: Real>(self, t: T) -> T {
+    #[inline]
+    pub fn parameter_of<T: Real>(self, t: T) -> T {
         t * t.splat_like(self.scale)
     }
 }
@@ -168,12 +175,15 @@ pub struct Line<T> {
 }
 
 const fn is_finite(v: Vec3) -> bool {
-    v.x.is_finite() && v.y.is_finite() && v.z.is_finite()
+    max_norm_bits(v) < f32::INFINITY.to_bits()
 }
+
+/// The least magnitude of the largest component of a direction.
+const MIN_SPEED: f32 = 1.0 / MAX_SPEED;
 
 /// Whether a point has finite coordinates of at most [`MAX_LENGTH`] in magnitude.
 pub(crate) const fn is_in_range(v: Vec3) -> bool {
-    is_finite(v) && max_norm(v) <= MAX_LENGTH
+    max_norm_bits(v) <= MAX_LENGTH.to_bits()
 }
 
 #[cfg(test)]

@@ -4,6 +4,7 @@
 //! crate brings. To give the same bits everywhere the trait holds only operations that IEEE 754 rounds correctly, or
 //! that only pick or flip bits: no fused multiply-add, no estimates of reciprocals, no sums across lanes.
 
+use crate::root;
 use core::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
 /// The outcome of a comparison: `bool` for a scalar, one truth value per lane for a packet.
@@ -181,16 +182,8 @@ macro_rules! real_scalar {
     };
 }
 
-// Both are correctly rounded. The standard library's is the compiler's own, which it schedules and encodes for the
-// processor it builds for; without it there is libm's.
-#[cfg(feature = "std")]
-real_scalar!(f32, f32::sqrt);
-#[cfg(feature = "std")]
-real_scalar!(f64, f64::sqrt);
-#[cfg(not(feature = "std"))]
-real_scalar!(f32, libm::sqrtf);
-#[cfg(not(feature = "std"))]
-real_scalar!(f64, libm::sqrt);
+real_scalar!(f32, root::single);
+real_scalar!(f64, root::double);
 
 #[cfg(test)]
 mod tests {

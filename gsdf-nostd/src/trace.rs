@@ -89,6 +89,7 @@ impl SphereTracer {
     pub fn trace<F: Field, T: Real>(&self, field: &F, line: &Line<T>, start: T, end: T) -> Traced<T> {
         let zero = start.splat_like(0.0);
         let one = start.splat_like(1.0);
+        let infinity = start.splat_like(f32::INFINITY);
         let epsilon = start.splat_like(self.epsilon);
         let relaxation = start.splat_like(self.relaxation);
         let speed = line.toward.vv.sqrt();
@@ -105,7 +106,9 @@ impl SphereTracer {
             steps += 1;
             // Two spheres that do not touch leave a gap in which a surface may hide: back to the end of the first.
             let overstepped = (radius + distance).lt(step);
-            let close = distance.le(epsilon * (t * speed).max(one));
+            // Far beyond everything the way travelled is infinite, and everything near in comparison.
+            let travelled = (t * speed).max(one);
+            let close = distance.le(epsilon * travelled) & travelled.lt(infinity);
             let arrived = running & close & !overstepped;
             hit = hit | arrived;
             running = running & !arrived;
@@ -128,10 +131,29 @@ impl SphereTracer {
 #[cfg(test)]
 mod tests {
     use super::SphereTracer;
-    use crate::{Cuboid, Ray, Sphere, csg};
+    use crate::{Cuboid, HalfSpace, Ray, Sphere, csg};
     use glam::{Vec3, vec3};
 
     csg! { const SCENE = difference(Cuboid::new(Vec3::NEG_ONE, Vec3::ONE), Sphere::new(Vec3::ZERO, 1.2)) }
+
+    #[test]
+    fn a_ray_into_the_void_hits_nothing_however_far_it_is_marched() {
+        // Of all distances that to a plane grows the farthest: it squares nothing.
+        csg! { const GROUND = HalfSpace::new(vec3(0.44, 0.43, 1.8), Vec3::Z) }
+        for relaxation in [1.0, 1.2, 1.9] {
+            let tracer = SphereTracer {
+                relaxation,
+                max_steps: 10_000,
+                ..SphereTracer::default()
+            };
+            for direction in [Vec3::NEG_Z, vec3(0.3, -0.7, -1.4), vec3(-0.9, -0.33, -1.47), vec3(1.0, 0.0, -1e-3)] {
+                let ray = Ray::new(vec3(0.3, 0.2, -5.0), direction).unwrap();
+                for traced in [tracer.cast(&GROUND, &ray), tracer.cast(&SCENE, &ray)] {
+                    assert!(!traced.hit, "at {}", traced.t);
+                }
+            }
+        }
+    }
 
     #[test]
     fn agrees_with_the_closed_form_within_epsilon() {

@@ -3,28 +3,19 @@
 use crate::tiles::{cut, parts};
 use gsdf_nostd::{Anywhere, Lane, Line, Program, Raster, RayError, Span, Toward, V3, march};
 use gsdf_simd::Pixel;
+use gsdf_workload::digest::Digest;
 
 /// The side of the tiles a scalar picture is cut into.
 const TILE: u32 = 16;
 
-/// The 64-bit FNV-1a hash of distance bits, normal bits and leaf of every pixel, in the order of the rows.
-///
-/// FNV because it is five lines that anyone can write down again in any language, and a crate's hash would be one more
-/// thing that may change; it need not withstand anyone. Zeros of both signs differ, as they should. Source: G. Fowler,
-/// L. Noll, K.-P. Vo, D. Eastlake, The FNV Non-Cryptographic Hash Algorithm.
+/// The [`Digest`] of distance, normal and leaf of every pixel, in the order of the rows.
 #[must_use]
 pub fn hash(pixels: &[Pixel]) -> u64 {
-    let mut hash = 0xcbf2_9ce4_8422_2325_u64;
+    let mut digest = Digest::new();
     for pixel in pixels {
-        let [x, y, z] = pixel.normal.map(f32::to_bits);
-        for byte in [pixel.distance.to_bits(), x, y, z, pixel.leaf]
-            .into_iter()
-            .flat_map(u32::to_le_bytes)
-        {
-            hash = (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3);
-        }
+        digest.hit(pixel.distance, pixel.normal, pixel.leaf);
     }
-    hash
+    digest.finish()
 }
 
 /// A picture of a program in the world, cast ray by ray through the scalar query; each tile with the part of the

@@ -2,6 +2,7 @@
 //! them, add a line.
 
 use gsdf_nostd::{Leaf, Sphere, leaf_set};
+use gsdf_parts::Fpu;
 use gsdf_simd::F32x8;
 use gsdf_tests::conformance::octahedron::Octahedron;
 use gsdf_tests::conformance::specimen::{Specimen, of_kind};
@@ -12,6 +13,7 @@ use rand_pcg::Pcg64;
 
 arithmetic_conformance!(single: f32);
 arithmetic_conformance!(double: f64);
+arithmetic_conformance!(fpu: Fpu);
 arithmetic_conformance!(packet_of_eight: F32x8);
 
 /// A leaf of the library: its number among [`KINDS`], and how it is found in a [`Leaf`].

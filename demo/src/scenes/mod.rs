@@ -6,7 +6,7 @@ mod reference;
 
 pub use paper::{HOLLOW_SPHERE, SNOWCONE, hollow, snowcone};
 pub use planetary::planetary;
-pub use reference::{BALL_ON_GROUND, PART, part, s1, s2, s3, s4, s5};
+pub use reference::{BALL_ON_GROUND, PART, s1, s2, s3, s4, s5};
 
 use crate::light::Light;
 use crate::palette;

@@ -12,6 +12,7 @@ pub(super) const MAX_LEAVES: usize = 1 << 24;
 
 /// Why a list of nodes is not a program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
 pub enum ProgramError {
     /// There are no nodes.

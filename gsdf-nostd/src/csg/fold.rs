@@ -6,8 +6,6 @@ use crate::real::Real;
 
 /// What the operators of a program act on.
 pub(super) trait Operand: Copy {
-    /// How many lanes an operand has.
-    const LANES: usize;
     fn union(self, other: Self) -> Self;
     fn intersection(self, other: Self) -> Self;
     fn complement(self) -> Self;
@@ -18,7 +16,6 @@ pub(super) trait Operand: Copy {
 pub(super) struct Signed<T>(pub(super) T);
 
 impl<T: Real> Operand for Signed<T> {
-    const LANES: usize = T::LANES;
     #[inline(always)]
     fn union(self, other: Self) -> Self {
         Self(self.0.min(other.0))
@@ -43,9 +40,9 @@ pub(super) trait Reading<L> {
 /// Evaluates a checked program; `filler` is any operand.
 #[inline(always)]
 pub(super) fn fold<L, R: Reading<L>>(nodes: &[Node<L>], filler: R::Operand, reading: &mut R) -> R::Operand {
-    // Packets are wide, and filling a deep stack of them costs more than a small program. A program of 15 nodes has
-    // at most 8 leaves.
-    if R::Operand::LANES > 1 && nodes.len() < 16 {
+    // Filling a deep stack takes longer than walking a small program, and it is most of what a cast takes of a small
+    // processor's stack. A program of 15 nodes has at most 8 leaves.
+    if nodes.len() < 16 {
         fold_within::<8, L, R>(nodes, filler, reading)
     } else {
         fold_within::<MAX_DEPTH, L, R>(nodes, filler, reading)

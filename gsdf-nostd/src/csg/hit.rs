@@ -4,6 +4,7 @@ use super::footing::OnSurface;
 use super::lanes::Encounter;
 use crate::ray::Ray;
 use crate::real::Lane;
+use crate::vec3::V3;
 use glam::Vec3;
 
 /// Where a ray first crosses the boundary of a program, and what it meets there.
@@ -27,23 +28,21 @@ pub struct Hit {
 }
 
 impl Hit {
-    /// What a ray meets at its parameter `t`: for evaluators of one's own, such as packets.
+    /// What a ray meets at its parameter `t`, its numbers rounded to `f32`: for evaluators of one's own, such as packets.
     #[must_use]
-    pub fn new(ray: &Ray, t: f32, met: &Encounter<f32>) -> Self {
+    pub fn new<T: Lane>(ray: &Ray, t: T, met: &Encounter<T>) -> Self {
+        let t = t.to_f32();
         let point = ray.at(t);
+        let V3 { x, y, z } = met.surface.normal;
         Self {
             t,
             point,
-            normal: met.surface.normal.into(),
+            normal: Vec3::new(x.to_f32(), y.to_f32(), z.to_f32()),
             leaf: met.leaf.to_index(),
-            face: face_number(met.surface.face),
+            // Saturates: no solid has 255 faces.
+            face: u8::try_from(met.surface.face.to_index()).unwrap_or(u8::MAX),
             entering: met.entering,
             slack: OnSurface::slack(ray.origin(), point),
         }
     }
-}
-
-fn face_number(face: f32) -> u8 {
-    // Saturates: no solid has 255 faces.
-    u8::try_from(face.to_index()).unwrap_or(u8::MAX)
 }

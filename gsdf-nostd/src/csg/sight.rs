@@ -81,6 +81,25 @@ impl<const N: usize, L: Solid> Csg<N, L> {
 }
 
 impl<'a, L: Solid, S, R: Start> Sight<'a, L, S, R> {
+    /// The first crossing within the ray's range, with its normal.
+    ///
+    /// Of the arithmetic of the spans a [`Hit`] keeps the nearest `f32` numbers; a crossing beyond all finite ones is
+    /// none, and one just before the range's end may be rounded to it.
+    #[must_use]
+    pub fn cast<T: Lane>(&self) -> Option<Hit>
+    where
+        S: AsRef<[Span<T>]>,
+    {
+        let ray = self.ray();
+        let found = self.march_from(ray.parameter_on_line(T::from(ray.range().start)))?;
+        let t = ray.parameter_of(found);
+        if !t.to_f32().is_finite() {
+            return None;
+        }
+        let met = self.start.surface(&self.program, self.spans.as_ref(), found);
+        Some(Hit::new(ray, t, &met))
+    }
+
     /// The ray this is seen along.
     #[must_use]
     pub fn ray(&self) -> &Ray {
@@ -135,19 +154,6 @@ impl<'a, L: Solid, S, R: Start> Sight<'a, L, S, R> {
         let ray = self.ray();
         let found = march(self.program.nodes, self.spans.as_ref(), t).t;
         ray.parameter_of(found).lt(T::from(ray.range().end)).then_some(found)
-    }
-}
-
-impl<L: Solid, S: AsRef<[Span<f32>]>, R: Start> Sight<'_, L, S, R> {
-    /// The first crossing within the ray's range, with its normal.
-    #[must_use]
-    pub fn cast(&self) -> Option<Hit> {
-        let ray = self.ray();
-        let start = ray.parameter_on_line(ray.range().start);
-        let found = self.march_from(start)?;
-        let met = self.start.surface(&self.program, self.spans.as_ref(), found);
-        let t = ray.parameter_of(found);
-        Some(Hit::new(ray, t, &met))
     }
 }
 

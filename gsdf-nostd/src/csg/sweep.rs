@@ -60,8 +60,6 @@ impl<T: Real> Attribution<T> {
 }
 
 impl<T: Real> Operand for Attribution<T> {
-    const LANES: usize = T::LANES;
-
     #[inline(always)]
     fn union(self, other: Self) -> Self {
         Self::new(self.before | other.before, self.after | other.after, self.leaf.min(other.leaf))

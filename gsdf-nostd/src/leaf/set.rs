@@ -124,6 +124,7 @@ macro_rules! leaf_set {
 
 leaf_set! {
     /// Every solid of this crate: the default leaf type.
+    #[cfg_attr(feature = "defmt", derive(defmt::Format))]
     pub enum Leaf {
         HalfSpace(HalfSpace),
         Sphere(Sphere),

@@ -2,6 +2,7 @@
 
 use super::values::Plain;
 use gsdf_nostd::{Mask, Real};
+use gsdf_parts::Fpu;
 use gsdf_simd::{F32x8, Mask8};
 
 /// An arithmetic whose lanes can be set and read one by one. One impl of a few lines makes a lane type testable.
@@ -32,6 +33,7 @@ macro_rules! one_lane {
 
 one_lane!(f32);
 one_lane!(f64);
+one_lane!(Fpu);
 
 impl Lanes for F32x8 {
     fn from_lanes(lane: impl FnMut(usize) -> f32) -> Self {

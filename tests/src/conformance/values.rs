@@ -2,6 +2,7 @@
 
 use core::fmt::Debug;
 use gsdf_nostd::Lane;
+use gsdf_parts::Fpu;
 use rand::{Rng, RngExt};
 
 /// A primitive number: the oracle of every arithmetic with this scalar, by the compiler's own operators and the
@@ -75,6 +76,28 @@ macro_rules! plain {
 
 plain!(f32, u32);
 plain!(f64, u64);
+
+/// Its oracle is that of `f32`, whose bits it promises.
+impl Plain for Fpu {
+    fn bits(self) -> u64 {
+        self.0.bits()
+    }
+    fn from_bits(bits: u64) -> Self {
+        Self(<f32 as Plain>::from_bits(bits))
+    }
+    fn std_sqrt(self) -> Self {
+        Self(self.0.std_sqrt())
+    }
+    fn signed(self, negative: bool) -> Self {
+        Self(self.0.signed(negative))
+    }
+    fn is_negative(self) -> bool {
+        self.0.is_negative()
+    }
+    fn specials() -> Vec<Self> {
+        <f32 as Plain>::specials().into_iter().map(Self).collect()
+    }
+}
 
 /// How many pairs of random bits go with the special ones.
 const RANDOM_PAIRS: usize = 20_000;

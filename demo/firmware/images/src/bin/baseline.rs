@@ -1,9 +1,10 @@
-//! The empty image: start-up code and panic handler alone. Its size is subtracted from that of `scene`.
-
+//! The empty image: start-up code alone. What the others have beyond it is what they cost in flash.
 #![no_std]
 #![no_main]
 
-#[cortex_m_rt::entry]
+use gsdf_firmware::board;
+
+#[board::entry]
 fn main() -> ! {
-    gsdf_firmware::stop()
+    board::stop()
 }

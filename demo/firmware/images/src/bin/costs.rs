@@ -1,0 +1,73 @@
+//! Prints what the queries of `gsdf_workload::costs` cost in instructions, and how much stack a cast takes.
+#![no_std]
+#![no_main]
+
+use gsdf_firmware::board::{self, println};
+use gsdf_firmware::{ask, ask_distance};
+use gsdf_parts::Fpu;
+use gsdf_workload::costs::{self, Item, Meter};
+
+/// What an arithmetic with the square root of the FPU is called in records, where it has one.
+const FPU: &str = "fpu";
+
+/// The instructions of some queries.
+#[derive(Default)]
+struct Instructions {
+    queries: u32,
+    instructions: u64,
+}
+
+impl Meter for Instructions {
+    fn query<R>(&mut self, query: impl FnOnce() -> R) -> R {
+        let (result, instructions) = board::instructions_of(query);
+        self.queries += 1;
+        self.instructions += instructions;
+        result
+    }
+
+    fn finish(&mut self, item: &Item) {
+        println!("cost {item} {} {}", self.queries, self.instructions);
+        *self = Self::default();
+    }
+}
+
+/// The stack of the queries of the images that are named.
+fn measure_stack() {
+    println!("stack spheres {}", board::stack_used_by(|| ask(&spheres::SCENE)));
+    println!("stack everything {}", board::stack_used_by(|| ask(&everything::SCENE)));
+    println!(
+        "stack distance {}",
+        board::stack_used_by(|| ask_distance::<4, 7, _>(&spheres::SCENE))
+    );
+}
+
+mod spheres {
+    use gsdf_nostd::{Sphere, leaf_set};
+
+    leaf_set! {
+        /// As the image `spheres` has it.
+        pub(crate) enum Ball { Sphere(Sphere) }
+    }
+
+    gsdf_firmware::four_balls!(Ball);
+}
+
+mod everything {
+    use gsdf_nostd::{Leaf, Sphere};
+
+    gsdf_firmware::four_balls!(Leaf);
+}
+
+#[board::entry]
+fn main() -> ! {
+    measure_stack();
+    let mut meter = Instructions::default();
+    let mut outcome = costs::of_everything::<f32>("", &mut meter);
+    if Fpu::HAS_ROOT {
+        outcome = outcome.and_then(|()| costs::of_everything::<Fpu>(FPU, &mut meter));
+    }
+    if let Err(error) = &outcome {
+        println!("{error}");
+    }
+    board::exit(outcome.is_ok())
+}
