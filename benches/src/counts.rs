@@ -6,7 +6,7 @@ use crate::inputs::{COUNT, Inputs, SEED};
 use crate::leaves::{Visitor, visit_leaves};
 use anyhow::Result;
 use gsdf_demo::scenes::Scene;
-use gsdf_nostd::{Anywhere, Line, March, Ray, Solid, Span, Toward, V3, march};
+use gsdf_nostd::{Anywhere, March, Ray, Solid, Span, Toward, V3, march};
 
 /// Operations, added up over many queries.
 #[derive(Clone, Copy, Debug, Default)]
@@ -170,11 +170,7 @@ pub fn of_scene(scene: &Scene, size: u32) -> Result<SceneCounts> {
 /// A first hit with its surface, in the three stages of [`Program`](gsdf_nostd::Program).
 fn cast(arena: &Arena<'_>, ray: &Ray, spans: &mut [Span<Counted>]) -> March<Counted> {
     let zero = Counted(0.0);
-    // The directions of these cameras are about one unit long, so they need no scaling.
-    let line = Line {
-        origin: V3::splat(zero, ray.origin()),
-        toward: Toward::new(V3::splat(zero, ray.direction())),
-    };
+    let line = ray.line(zero);
     arena.program.spans_along(&line, Anywhere, spans);
     let found = march(arena.program.nodes(), spans, zero);
     if found.t.0.is_finite() {

@@ -1,9 +1,11 @@
-//! `gsdf`: renders the gallery.
+//! `gsdf`: renders the gallery, and the shapes.
 
+use anyhow::Result;
 use clap::builder::PossibleValuesParser;
 use clap::{Args, Parser, Subcommand, value_parser};
 use gsdf_demo::gallery::Gallery;
 use gsdf_demo::scenes;
+use gsdf_demo::shapes::Shapes;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -21,12 +23,18 @@ struct CommandLine {
     options: Options,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Subcommand)]
+#[derive(Clone, Debug, PartialEq, Subcommand)]
 enum Command {
     /// Render scenes to PNG files, with a table of what each took, and all scenes on one sheet
     Gallery,
     /// Render scenes to one PNG file, on which they stand side by side
     Sheet,
+    /// Render every shape there is, all on one sheet
+    Shapes {
+        /// Also render each to a small PNG file in this directory, with Markdown that holds it
+        #[arg(long, value_name = "DIRECTORY")]
+        each: Option<PathBuf>,
+    },
 }
 
 /// They may stand before the command or after it.
@@ -35,7 +43,7 @@ struct Options {
     /// Pixels along each side of a picture; on the sheet half of them
     #[arg(long, global = true, value_name = "N", default_value_t = 512, value_parser = value_parser!(u32).range(1..=4096))]
     size: u32,
-    /// Directory of the pictures, or file of the sheet [default: gallery, gallery/sheet.png]
+    /// Directory of the pictures, or file of the sheet [default: gallery, gallery/sheet.png, gallery/shapes.png]
     #[arg(long, global = true, value_name = "PATH")]
     out: Option<PathBuf>,
     /// Scenes to render [default: all]
@@ -49,11 +57,36 @@ struct Options {
 /// Where pictures and sheet lie if nothing else is said.
 const DIRECTORY: &str = "gallery";
 const SHEET: &str = "sheet.png";
+const SHAPES: &str = "shapes.png";
 
-impl From<CommandLine> for Gallery {
+/// What is asked for.
+#[derive(Debug)]
+enum Work {
+    Gallery(Gallery),
+    Shapes(Shapes),
+}
+
+impl Work {
+    fn render(&self) -> Result<()> {
+        match self {
+            Self::Gallery(gallery) => gallery.render(),
+            Self::Shapes(shapes) => shapes.render(),
+        }
+    }
+}
+
+impl From<CommandLine> for Work {
     fn from(line: CommandLine) -> Self {
         let options = line.options;
         let (directory, sheet) = match line.command.unwrap_or(Command::Gallery) {
+            Command::Shapes { each } => {
+                return Self::Shapes(Shapes {
+                    size: options.size,
+                    sheet: options.out.unwrap_or_else(|| Path::new(DIRECTORY).join(SHAPES)),
+                    each,
+                    threads: options.threads.map(usize::from),
+                });
+            }
             Command::Gallery => {
                 let directory = options.out.unwrap_or_else(|| DIRECTORY.into());
                 // Some scenes alone are not the sheet of all.
@@ -62,18 +95,18 @@ impl From<CommandLine> for Gallery {
             }
             Command::Sheet => (None, Some(options.out.unwrap_or_else(|| Path::new(DIRECTORY).join(SHEET)))),
         };
-        Self {
+        Self::Gallery(Gallery {
             scenes: options.scene,
             size: options.size,
             directory,
             sheet,
             threads: options.threads.map(usize::from),
-        }
+        })
     }
 }
 
 fn main() -> ExitCode {
-    match Gallery::from(CommandLine::parse()).render() {
+    match Work::from(CommandLine::parse()).render() {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
             // The whole chain of causes in one line. If nobody can read it, the status still tells.
@@ -85,7 +118,7 @@ fn main() -> ExitCode {
 
 #[cfg(test)]
 mod tests {
-    use super::CommandLine;
+    use super::{CommandLine, Work};
     use clap::{CommandFactory, Parser};
     use gsdf_demo::gallery::Gallery;
     use gsdf_demo::scenes;
@@ -95,8 +128,28 @@ mod tests {
         CommandLine::command().debug_assert();
     }
 
-    fn gallery(arguments: &[&str]) -> Gallery {
+    fn work(arguments: &[&str]) -> Work {
         CommandLine::parse_from(["gsdf"].iter().chain(arguments)).into()
+    }
+
+    fn gallery(arguments: &[&str]) -> Gallery {
+        match work(arguments) {
+            Work::Gallery(gallery) => gallery,
+            other => panic!("{other:?}"),
+        }
+    }
+
+    #[test]
+    fn shapes_are_a_sheet_and_pictures_if_asked_for() {
+        let shapes = |arguments: &[&str]| match work(arguments) {
+            Work::Shapes(shapes) => shapes,
+            other => panic!("{other:?}"),
+        };
+        let bare = shapes(&["shapes"]);
+        assert_eq!((bare.sheet, bare.each, bare.size), ("gallery/shapes.png".into(), None, 512));
+        let told = shapes(&["shapes", "--each", "here", "--out", "all.png", "--threads", "3", "--size", "64"]);
+        assert_eq!((told.sheet, told.each), ("all.png".into(), Some("here".into())));
+        assert_eq!((told.size, told.threads), (64, Some(3)));
     }
 
     #[test]

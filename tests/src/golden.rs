@@ -1,7 +1,7 @@
 //! One number for a whole picture: a hash over the bits of every pixel, for pictures that must never change.
 
 use crate::tiles::{cut, parts};
-use gsdf_nostd::{Anywhere, Lane, Line, Program, Raster, RayError, Span, Toward, V3, march};
+use gsdf_nostd::{Anywhere, Lane, Program, Raster, RayError, Span, V3, march};
 use gsdf_simd::Pixel;
 use gsdf_workload::digest::Digest;
 
@@ -52,11 +52,7 @@ pub fn scalar_picture(program: &Program<'_>, raster: &Raster) -> Result<Vec<Pixe
 pub fn staged_picture<T: Lane>(program: &Program<'_>, raster: &Raster, like: T) -> Result<Vec<Pixel>, RayError> {
     picture(program, raster, |program, raster, x, y| {
         let ray = raster.ray(x, y)?;
-        let scale = f32::from_bits(ray.direction().abs().max_element().to_bits() & 0x7f80_0000);
-        let line = Line {
-            origin: V3::splat(like, ray.origin()),
-            toward: Toward::new(V3::splat(like, ray.direction() / scale)),
-        };
+        let line = ray.line(like);
         let mut spans = vec![Span::empty_like(like); program.leaves()];
         program.spans_along(&line, Anywhere, &mut spans);
         let t = march(program.nodes(), &spans, like.splat_like(0.0)).t;
@@ -66,7 +62,7 @@ pub fn staged_picture<T: Lane>(program: &Program<'_>, raster: &Raster, like: T) 
         let met = program.surface_at(&line, Anywhere, &spans, t);
         let V3 { x, y, z } = met.surface.normal;
         Ok(Pixel {
-            distance: t.to_f32() / scale,
+            distance: ray.parameter_of(t).to_f32(),
             normal: [x, y, z].map(Lane::to_f32),
             leaf: met.leaf.to_index(),
         })

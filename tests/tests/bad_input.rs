@@ -94,7 +94,7 @@ const CONSTRUCTORS: [Constructor; 22] = [
         |n| Pyramid::new(at(n, 0), n[3], n[4]).map(Leaf::from)),
     constructor("Rhombus::new", &[(BOTTOM_TO_TOP, "bottom|top"), (SIZE, "half x|half z|diagonal"), (SIZE, "half z|half x|diagonal"), (ROUNDING, "rounding")],
         |n| Rhombus::new(at(n, 0), n[3], n[4], n[5], n[6]).map(Leaf::from)),
-    constructor("RoundedCone::new", &[(LOW, "rounded cone|center"), (PLACE, "rounded cone|center"), (SIZE, "radius|radii"), (SIZE, "radius|radii")],
+    constructor("RoundedCone::new", &[(LOW, "rounded cone|center"), (PLACE, "rounded cone|center"), (SIZE, "radius|side"), (SIZE, "radius|side")],
         |n| RoundedCone::new(at(n, 0), at(n, 3), n[6], n[7]).map(Leaf::from)),
     constructor("SolidAngle::new", &[(PLACE, "apex"), (OBLIQUE, "axis"), (SIZE, "reach"), (SIZE, "radius"), (SIZE, "height")],
         |n| SolidAngle::new(at(n, 0), at(n, 3), n[6], n[7], n[8]).map(Leaf::from)),

@@ -13,6 +13,8 @@ use glam::Vec3;
 /// The box of the points between two corners, with faces parallel to the coordinate planes of its frame; turn it with
 /// a [`Transform`](crate::Transform).
 ///
+#[cfg_attr(doc, doc = include_str!("../../pictures/cuboid.md"))]
+///
 /// It stores the positions of its faces rather than a centre and a size, so that a face shared with a neighbour is
 /// one and the same number.
 ///

@@ -95,7 +95,9 @@ impl<T: Real, const N: usize> SeenFacet<T, N> {
             t = T::select(met, t, way / (area * sight.speed));
             met = met | (!is_mixed(u, v, w) & !area.eq(zero));
         }
-        Span::between_where(near & met, t, t.next_up())
+        // Next to 0, where numbers are as close as they get, no caller's unit of length may take the span to nothing.
+        let exit = t.next_up().max(t + t.splat_like(THINNEST));
+        Span::between_where(near & met, t, exit)
     }
 
     /// `normal` turned against the ray where it enters the facet, along the ray where it leaves it.
@@ -106,6 +108,9 @@ impl<T: Real, const N: usize> SeenFacet<T, N> {
         V3::select(entering.differs_from(along), normal, -normal)
     }
 }
+
+/// The least length of a facet's span: 2^-80, too little to be seen in any other number than 0.
+const THINNEST: f32 = 1.0 / (1_u128 << 80) as f32;
 
 /// The ray's own frame: which component of its direction is the largest, and how it strays from that axis.
 struct Sight<T: Real> {
@@ -276,7 +281,7 @@ pub(super) const fn corner_normal(names: [&'static str; 4], a: Vec3, b: Vec3, c:
 
 #[cfg(test)]
 mod tests {
-    use super::{residue, splitter};
+    use super::{Aimed, residue, splitter};
     use crate::leaf::{Leaf, Quad, Solid, Triangle};
     use crate::ray::Line;
     use crate::toward::Toward;
@@ -285,7 +290,7 @@ mod tests {
 
     #[test]
     fn what_rounding_loses_of_a_product_is_found_in_either_precision() {
-        let (x, y) = (1.0 + f32::EPSILON, 1.0 - 3.0 * f32::EPSILON);
+        let (x, y) = (1.234_567_8_f32, 7.654_321_7_f32);
         assert_eq!(
             f64::from(residue(x, y, x * y, splitter(0.0_f32))),
             f64::from(x) * f64::from(y) - f64::from(x * y)
@@ -293,6 +298,14 @@ mod tests {
         // (1 + e)² = 1 + 2 e + e², and the last is lost.
         let x = 1.0 + f64::EPSILON;
         assert_eq!(residue(x, x, x * x, splitter(0.0_f64)), f64::EPSILON * f64::EPSILON);
+    }
+
+    #[test]
+    fn turns_keep_their_digits_where_corners_are_almost_in_line_with_the_ray() {
+        let [from, to] = [(1.234_567_8_f32, 7.654_321_f32), (2.469_135_f32, 15.308_64_f32)].map(|(x, y)| Aimed { x, y, along: 0.0 });
+        let exact = f64::from(from.x) * f64::from(to.y) - f64::from(to.x) * f64::from(from.y);
+        let error = f64::from(from.exact_turn(&to, splitter(0.0_f32))) - exact;
+        assert!(error.abs() <= exact.abs() * f64::from(f32::EPSILON), "{error} of {exact}");
     }
 
     fn hits(sheet: &[Leaf], origin: Vec3, direction: Vec3) -> usize {

@@ -12,6 +12,8 @@ use glam::Vec3;
 /// The upright prism over a regular hexagon, two sides of which are across x; turn it with a
 /// [`Transform`](crate::Transform).
 ///
+#[cfg_attr(doc, doc = include_str!("../../pictures/hexagonal_prism.md"))]
+///
 /// It stores the heights of its caps, so that a cap shared with a neighbour is one and the same number.
 ///
 /// - Standard: the point mirrored into the sixth around one side, where the nearest point of the outline is on that

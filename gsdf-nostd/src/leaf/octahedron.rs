@@ -12,6 +12,8 @@ use glam::Vec3;
 
 /// The regular octahedron with its corners on the axes of its frame: `|x| + |y| + |z| < radius` around the centre.
 ///
+#[cfg_attr(doc, doc = include_str!("../../pictures/octahedron.md"))]
+///
 /// - Standard: in the octant where all coordinates are positive, to the plane of its face, or to the edge the point is
 ///   beyond, which is the one where the least coordinate vanishes, exact. Source: I. Quilez, Distance functions
 ///   (octahedron).

@@ -48,6 +48,15 @@ impl<T: Real> SeenSlab<T> {
         Self::between(height, -half, half)
     }
 
+    /// The parameters at which the ray crosses the lower face and the upper one.
+    #[inline(always)]
+    pub(super) fn crossings(&self, per_speed: T) -> [T; 2] {
+        [
+            plane::crossing(self.over_lower, per_speed),
+            plane::crossing(self.over_upper, per_speed),
+        ]
+    }
+
     #[inline(always)]
     pub(super) fn lift(seen: &SeenSlab<T::Scalar>, like: T) -> Self {
         Self {

@@ -13,6 +13,8 @@ use glam::Vec3;
 /// The upright pyramid over a square whose sides are parallel to x and z; turn it with a
 /// [`Transform`](crate::Transform).
 ///
+#[cfg_attr(doc, doc = include_str!("../../pictures/pyramid.md"))]
+///
 /// - Standard: by symmetry the nearest side is known; to its triangle, in the coordinates of its plane, or to the base,
 ///   exact. Source: I. Quilez, Distance functions (pyramid); to the base, which his leaves out, and with the slant
 ///   normalized.

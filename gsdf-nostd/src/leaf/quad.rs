@@ -13,6 +13,8 @@ use glam::Vec3;
 /// The flat piece of surface between four corners, convex, without thickness, seen from both sides: the two triangles
 /// `a b c` and `a c d`.
 ///
+#[cfg_attr(doc, doc = include_str!("../../pictures/quad.md"))]
+///
 /// All that is said of a [`Triangle`](super::Triangle) holds here too, watertightness between facets that share an
 /// edge included.
 ///

@@ -14,6 +14,9 @@ use glam::Vec3;
 /// The upright prism over a rhombus whose diagonals are along x and z, grown by a rounding that leaves its vertical
 /// edges round and its caps plain; turn it with a [`Transform`](crate::Transform).
 ///
+#[cfg_attr(doc, doc = include_str!("../../pictures/rhombus.md"))]
+#[cfg_attr(doc, doc = include_str!("../../pictures/rounded_rhombus.md"))]
+///
 /// It stores the heights of its caps, so that a cap shared with a neighbour is one and the same number.
 ///
 /// - Standard: the prism over the distance to the rhombus, which is that to the side in the point's quadrant, less the
@@ -319,15 +322,23 @@ impl Solid for Rhombus {
         };
         if let Some(round) = &seen.round {
             let axis = Self::axis(t);
-            let mut number = t.splat_like(9.0);
-            for edge in self.settled_edges(round).iter().rev() {
-                let span = edge.span(axis, toward);
-                let here = Surface {
-                    normal: edge.normal(axis, toward, t),
-                    face: number,
-                };
-                last = here.or_else(span.enter.eq(t) | span.exit.eq(t), last);
-                number = number - t.splat_like(1.0);
+            let edges = self.settled_edges(round);
+            let ([a, b], [c, d]) = (
+                round.chords[0].crossings(toward.per_component.x),
+                round.chords[1].crossings(toward.per_component.z),
+            );
+            let face = |edge: usize| Surface {
+                normal: edges[edge].normal(axis, toward, t),
+                face: t.splat_like(6.0 + edge as f32),
+            };
+            // Where a side goes over into an edge, rounding may leave it to the chord to bound the ray: the edge
+            // beyond it is what is there.
+            for (edge, chord) in [a, b, c, d].into_iter().enumerate().rev() {
+                last = face(edge).or_else(chord.eq(t), last);
+            }
+            for (edge, cylinder) in edges.iter().enumerate().rev() {
+                let span = cylinder.span(axis, toward);
+                last = face(edge).or_else(span.enter.eq(t) | span.exit.eq(t), last);
             }
         }
         let crossed = Crossed::at(t, last)
@@ -354,6 +365,7 @@ impl Solid for Rhombus {
 mod tests {
     use super::Rhombus;
     use crate::leaf::Solid;
+    use crate::ray::Ray;
     use glam::{Vec3, vec3};
 
     #[test]
@@ -390,5 +402,26 @@ mod tests {
         // Down through the round edge, and beside it.
         assert_eq!(round.gsdf(vec3(4.5, 9.0, 0.5), Vec3::NEG_Y), 6.0);
         assert_eq!(round.gsdf(vec3(4.75, 9.0, 0.75), Vec3::NEG_Y), f32::INFINITY);
+    }
+
+    #[test]
+    fn seams_have_the_normal_of_both_their_sides() {
+        let tile = Rhombus::new(vec3(1.0, -1.0, 0.5), 3.0, 4.0, 3.0, 1.0).unwrap();
+        for (x, z) in [(0.6, 0.8), (-0.6, 0.8), (0.6, -0.8), (-0.6, -0.8)] {
+            let out = vec3(x, 0.0, z);
+            for corner in [vec3(4.0_f32.copysign(x), 0.0, 0.0), vec3(0.0, 0.0, 3.0_f32.copysign(z))] {
+                let seam = vec3(1.0, -1.0, 0.5) + corner + out;
+                for step in 0..2_000_u16 {
+                    let share = f32::from(step) / 2_000.0;
+                    let target = seam + Vec3::Y * (0.5 + 3.0 * share);
+                    let away = out + vec3(z, 0.0, -x) * (1.4 * (97.0 * share).sin()) + Vec3::Y * (31.0 * share).cos();
+                    let line = Ray::new(target + away * (1.0 + 7.0 * share), -away).unwrap().line(0.0_f32);
+                    let seen = tile.seen_from(line.origin);
+                    let enter = tile.span(&seen, &line.toward).enter;
+                    let normal = Vec3::from(tile.surface(&seen, &line.toward, enter).normal);
+                    assert!(normal.dot(out) > 0.999, "{normal} and not {out} at {target} towards {away}");
+                }
+            }
+        }
     }
 }

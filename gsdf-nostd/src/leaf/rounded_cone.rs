@@ -15,6 +15,8 @@ use glam::Vec3;
 /// The convex hull of two spheres: a cone with round ends that goes over into them without an edge. With equal radii
 /// it is a [`Capsule`](super::Capsule).
 ///
+#[cfg_attr(doc, doc = include_str!("../../pictures/rounded_cone.md"))]
+///
 /// With `d` from the one centre to the other, `D = r_a - r_b` and `K = √(d.d - D²)`, the side touches the spheres
 /// along the circles in the planes `w.d = r D`, `w` measured from the sphere's own centre, and between these holds
 /// `K |w x d| < r_a d.d - D w.d`, measured from the first.

@@ -15,6 +15,8 @@ use glam::Vec3;
 /// The points nearer to `apex` than `reach` whose direction from there makes less than the half-angle with `axis`: a
 /// spherical sector of less than a hemisphere. Wider ones are a [`WideSolidAngle`](crate::WideSolidAngle).
 ///
+#[cfg_attr(doc, doc = include_str!("../../pictures/solid_angle.md"))]
+///
 /// - Standard: the nearer of the round end and the side, exact. Source: I. Quilez, Distance functions (solid angle).
 /// - Along a ray: the ball's span and the nappe's, intersected.
 /// - Accuracy: 8 rounding errors, as the [crate](crate#accuracy) counts them. Cost: that of a [`Nappe`] and a

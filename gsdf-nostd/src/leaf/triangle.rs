@@ -11,6 +11,8 @@ use glam::Vec3;
 
 /// The flat piece of surface between three corners, without thickness, seen from both sides.
 ///
+#[cfg_attr(doc, doc = include_str!("../../pictures/triangle.md"))]
+///
 /// A ray that crosses it at `t` is in it from `t` to the next number. That makes it a member of unions like any solid,
 /// also posed. It holds no volume: its complement is all of space, intersected with a solid it stays a facet where it
 /// lies in that solid, and taken from one it leaves a cut of one number's width that is seen from inside alone. A ray

@@ -12,6 +12,8 @@ use glam::Vec3;
 /// The upright prism over an equilateral triangle, one side of which is across z, towards -z; turn it with a
 /// [`Transform`](crate::Transform).
 ///
+#[cfg_attr(doc, doc = include_str!("../../pictures/triangular_prism.md"))]
+///
 /// It stores the heights of its caps, so that a cap shared with a neighbour is one and the same number.
 ///
 /// - Standard: the point mirrored to where the nearest point of the outline is on the side across z, and the prism

@@ -11,6 +11,8 @@ use glam::Vec3;
 /// The twelve edges of a box as bars of square section, with faces parallel to the coordinate planes of its frame: a
 /// box less three tunnels, each of which goes through two opposite faces.
 ///
+#[cfg_attr(doc, doc = include_str!("../../pictures/box_frame.md"))]
+///
 /// - Standard: outside, the distance to the nearest of the bars; inside, to the nearest of the box's faces and of the
 ///   tunnels; exact on both sides. Sources: I. Quilez, Distance functions (box frame), which inside is exact along the
 ///   bars but not where three of them meet; there it is our own.

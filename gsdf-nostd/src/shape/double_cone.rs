@@ -11,6 +11,8 @@ use glam::Vec3;
 /// Both nappes of an infinite cone: the points whose direction from `apex` makes less than the half-angle with `axis`
 /// or with its opposite.
 ///
+#[cfg_attr(doc, doc = include_str!("../../pictures/double_cone.md"))]
+///
 /// - Standard: the lesser of the two nappes' distances, exact on both sides: whatever is nearest lies on the point's own
 ///   side of the apex.
 /// - Along a ray: that of the [program](Self::program), a union of two [nappes](Nappe).

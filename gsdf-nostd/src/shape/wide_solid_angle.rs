@@ -12,6 +12,8 @@ use glam::Vec3;
 /// being from 90 to below 180 degrees: a ball less the opposite cone. Narrower ones are a
 /// [`SolidAngle`](crate::SolidAngle).
 ///
+#[cfg_attr(doc, doc = include_str!("../../pictures/wide_solid_angle.md"))]
+///
 /// - Standard: the nearer of the round end and the side, exact on both sides. Source: I. Quilez, Distance functions
 ///   (solid angle).
 /// - Along a ray: that of the [program](Self::program).

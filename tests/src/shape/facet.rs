@@ -12,7 +12,7 @@ const BITS: usize = 400;
 const THIN: isize = -120;
 
 /// A convex polygon in space, its corners in a plane up to rounding.
-pub struct Facet<'a>(pub &'a [Vec3]);
+pub(super) struct Facet<'a>(pub(super) &'a [Vec3]);
 
 impl Facet<'_> {
     fn corner(&self, number: usize) -> ExactVec3 {
@@ -48,7 +48,7 @@ impl Facet<'_> {
 
     /// The points nearer than `offset` to the plane, within the edges moved outward by as much; next to nothing where
     /// the offset is 0, and nothing where it is negative.
-    pub fn exact(&self, offset: f64) -> Expr {
+    pub(super) fn exact(&self, offset: f64) -> Expr {
         if offset < 0.0 {
             return Expr::Or(Vec::new());
         }
@@ -62,7 +62,7 @@ impl Facet<'_> {
 
     /// Whether a line goes through whatever way the facet's corners are moved by less than `offset`: within edges
     /// moved inward it is more than that before the facet, and more than that behind it.
-    pub fn is_pierced(&self, origin: Vec3, direction: Vec3, offset: f64) -> bool {
+    pub(super) fn is_pierced(&self, origin: Vec3, direction: Vec3, offset: f64) -> bool {
         let normal = self.normal();
         [&normal, &-&normal].into_iter().all(|side| {
             let mut walls = self.outline(-offset);
@@ -72,7 +72,7 @@ impl Facet<'_> {
     }
 
     /// A point of the facet and a normal.
-    pub fn surface(&self, rng: &mut impl Rng) -> (DVec3, DVec3) {
+    pub(super) fn surface(&self, rng: &mut impl Rng) -> (DVec3, DVec3) {
         let last = rng.random_range(2..self.0.len());
         let triangle = [0, last - 1, last].map(|number| self.0[number].as_dvec3());
         let sign = if rng.random() { 1.0 } else { -1.0 };
@@ -80,14 +80,14 @@ impl Facet<'_> {
     }
 
     /// A point of an edge; one in four is a corner.
-    pub fn edge_point(&self, rng: &mut impl Rng) -> DVec3 {
+    pub(super) fn edge_point(&self, rng: &mut impl Rng) -> DVec3 {
         let first = rng.random_range(0..self.0.len());
         let [from, to] = [first, first + 1].map(|number| self.0[number % self.0.len()].as_dvec3());
         between(rng, from, to)
     }
 
     /// The facet as triangles.
-    pub fn triangles(&self) -> Vec<[DVec3; 3]> {
+    pub(super) fn triangles(&self) -> Vec<[DVec3; 3]> {
         let triangle = |last: usize| [0, last - 1, last].map(|number| self.0[number].as_dvec3());
         (2..self.0.len()).map(triangle).collect()
     }

@@ -8,7 +8,7 @@ use rand::{Rng, RngExt};
 const BITS: usize = 400;
 
 /// A convex solid: its corners, and for each face the corners around it.
-pub struct Polyhedron {
+pub(super) struct Polyhedron {
     corners: Vec<ExactVec3>,
     faces: Vec<Vec<usize>>,
 }
@@ -45,7 +45,7 @@ impl Polyhedron {
     }
 
     /// A prism over the regular hexagon with two sides across x, each so far from the middle.
-    pub fn hexagonal_prism(bottom: Vec3, top: f32, apothem: f32) -> Self {
+    pub(super) fn hexagonal_prism(bottom: Vec3, top: f32, apothem: f32) -> Self {
         let near = Exact::from(apothem).quotient(&root_three(), BITS);
         let (wide, far) = (Exact::from(apothem), near.scaled(1));
         let none = Exact::ZERO;
@@ -61,7 +61,7 @@ impl Polyhedron {
     }
 
     /// A prism over the regular triangle with one side across z, below the middle, and a corner above.
-    pub fn triangular_prism(bottom: Vec3, top: f32, inradius: f32) -> Self {
+    pub(super) fn triangular_prism(bottom: Vec3, top: f32, inradius: f32) -> Self {
         let inradius = Exact::from(inradius);
         let half = &inradius * &root_three();
         let outline = vec![[Exact::ZERO, inradius.scaled(1)], [-&half, -&inradius], [half, -inradius]];
@@ -69,7 +69,7 @@ impl Polyhedron {
     }
 
     /// A prism over the rhombus with these halves of its diagonals.
-    pub fn rhombus(bottom: Vec3, top: f32, half_x: f32, half_z: f32) -> Self {
+    pub(super) fn rhombus(bottom: Vec3, top: f32, half_x: f32, half_z: f32) -> Self {
         let (x, z) = (Exact::from(half_x), Exact::from(half_z));
         let none = Exact::ZERO;
         let outline = vec![[x.clone(), none.clone()], [none.clone(), z.clone()], [-x, none.clone()], [none, -z]];
@@ -77,7 +77,7 @@ impl Polyhedron {
     }
 
     /// The octahedron with its corners on the axes of its centre, so far away.
-    pub fn octahedron(center: Vec3, radius: f32) -> Self {
+    pub(super) fn octahedron(center: Vec3, radius: f32) -> Self {
         let corner = |axis: usize, reach: Exact| {
             let mut at = [Exact::ZERO, Exact::ZERO, Exact::ZERO];
             at[axis] = reach;
@@ -92,7 +92,7 @@ impl Polyhedron {
     }
 
     /// The pyramid over a square around `base`, with its apex above.
-    pub fn pyramid(base: Vec3, half_width: f32, height: f32) -> Self {
+    pub(super) fn pyramid(base: Vec3, half_width: f32, height: f32) -> Self {
         let half = Exact::from(half_width);
         let corner = |x: i32, z: i32| from(base, [&half * &x.into(), Exact::ZERO, &half * &z.into()]);
         let apex = from(base, [Exact::ZERO, height.into(), Exact::ZERO]);
@@ -117,7 +117,7 @@ impl Polyhedron {
     }
 
     /// The points behind all faces, each moved outward by `offset`.
-    pub fn exact(&self, offset: f64) -> Expr {
+    pub(super) fn exact(&self, offset: f64) -> Expr {
         let behind = |face: &Vec<usize>| {
             let normal = self.outward(face);
             let share = Exact::from(offset).quotient(&normal.length_squared().sqrt(BITS), BITS);
@@ -131,7 +131,7 @@ impl Polyhedron {
     }
 
     /// The faces, as triangles.
-    pub fn triangles(&self) -> Vec<[DVec3; 3]> {
+    pub(super) fn triangles(&self) -> Vec<[DVec3; 3]> {
         let fan = |face: &Vec<usize>| {
             let corners: Vec<_> = face.iter().map(|&number| self.corner(number)).collect();
             let triangles = (2..corners.len()).map(|last| [corners[0], corners[last - 1], corners[last]]);
@@ -141,7 +141,7 @@ impl Polyhedron {
     }
 
     /// A point of a face and the outward normal there.
-    pub fn surface(&self, rng: &mut impl Rng) -> (DVec3, DVec3) {
+    pub(super) fn surface(&self, rng: &mut impl Rng) -> (DVec3, DVec3) {
         let face = &self.faces[rng.random_range(0..self.faces.len())];
         let last = rng.random_range(2..face.len());
         let triangle = [0, last - 1, last].map(|number| self.corner(face[number]));
@@ -149,7 +149,7 @@ impl Polyhedron {
     }
 
     /// A point of an edge; one in four is a corner.
-    pub fn edge_point(&self, rng: &mut impl Rng) -> DVec3 {
+    pub(super) fn edge_point(&self, rng: &mut impl Rng) -> DVec3 {
         let face = &self.faces[rng.random_range(0..self.faces.len())];
         let first = rng.random_range(0..face.len());
         let [from, to] = [first, (first + 1) % face.len()].map(|number| self.corner(face[number]));
@@ -158,7 +158,7 @@ impl Polyhedron {
 }
 
 /// A point between two others; one in four is the first of them.
-pub fn between(rng: &mut impl Rng, from: DVec3, to: DVec3) -> DVec3 {
+pub(super) fn between(rng: &mut impl Rng, from: DVec3, to: DVec3) -> DVec3 {
     if rng.random_range(0..4) == 0 {
         from
     } else {
@@ -167,7 +167,7 @@ pub fn between(rng: &mut impl Rng, from: DVec3, to: DVec3) -> DVec3 {
 }
 
 /// A point of a triangle, evenly distributed.
-pub fn in_triangle(rng: &mut impl Rng, [a, b, c]: [DVec3; 3]) -> DVec3 {
+pub(super) fn in_triangle(rng: &mut impl Rng, [a, b, c]: [DVec3; 3]) -> DVec3 {
     let (u, v): (f64, f64) = (rng.random_range(0.0..1.0), rng.random_range(0.0..1.0));
     let (u, v) = if u + v > 1.0 { (1.0 - u, 1.0 - v) } else { (u, v) };
     a + (b - a) * u + (c - a) * v

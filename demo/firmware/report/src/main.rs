@@ -26,7 +26,7 @@ use crate::measure::{BOARDS, Measured};
 /// Prints what the images of all boards hold and what their queries cost, and fails if any of it grew by more than 5 %.
 #[derive(Parser)]
 struct Options {
-    /// The folder of <board>/<image>.elf and, printed by it, <board>/<image>.txt.
+    /// The folder of `<board>/<image>.elf` and, printed by it, `<board>/<image>.txt`.
     #[arg(long, value_name = "FOLDER")]
     root: PathBuf,
     /// The folder of the recorded figures, costs.csv, and their tables, COSTS.md.
