@@ -6,6 +6,7 @@
 //! - [`light`], [`shade`] and [`palette`]: the light and the colours. [`edges`]: where one ray per pixel is not enough.
 //! - [`gallery`], [`sheet`] and [`output`]: the pictures as files, and the table about them.
 //! - [`shapes`]: a picture of each shape there is, all on one sheet and each for its documentation.
+//! - [`paper`]: the composition of the paper this library repairs, in the ways it can be read, measured.
 
 pub mod edges;
 pub mod frame;
@@ -14,6 +15,7 @@ pub mod leave;
 pub mod light;
 pub mod output;
 pub mod palette;
+pub mod paper;
 pub mod render;
 pub mod scenes;
 pub mod shade;

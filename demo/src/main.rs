@@ -1,9 +1,10 @@
-//! `gsdf`: renders the gallery, and the shapes.
+//! `gsdf`: renders the gallery and the shapes, and measures the paper's reading.
 
-use anyhow::Result;
 use clap::builder::PossibleValuesParser;
-use clap::{Args, Parser, Subcommand, value_parser};
+use clap::error::{Error, ErrorKind};
+use clap::{Args, CommandFactory, Parser, Subcommand, value_parser};
 use gsdf_demo::gallery::Gallery;
+use gsdf_demo::paper::command::Paper;
 use gsdf_demo::scenes;
 use gsdf_demo::shapes::Shapes;
 use std::io::{self, Write};
@@ -15,7 +16,7 @@ use std::process::ExitCode;
 /// Without a command it renders the gallery.
 #[derive(Debug, Parser)]
 // A command ends the names after `--scene`.
-#[command(version, subcommand_precedence_over_arg = true)]
+#[command(name = "gsdf", version, subcommand_precedence_over_arg = true)]
 struct CommandLine {
     #[command(subcommand)]
     command: Option<Command>,
@@ -35,15 +36,17 @@ enum Command {
         #[arg(long, value_name = "DIRECTORY")]
         each: Option<PathBuf>,
     },
+    /// Compare the ways to read the paper's composition with the exact one, on a sheet and in a table
+    Paper,
 }
 
 /// They may stand before the command or after it.
 #[derive(Args, Debug)]
 struct Options {
-    /// Pixels along each side of a picture; on the sheet half of them
-    #[arg(long, global = true, value_name = "N", default_value_t = 512, value_parser = value_parser!(u32).range(1..=4096))]
-    size: u32,
-    /// Directory of the pictures, or file of the sheet [default: gallery, gallery/sheet.png, gallery/shapes.png]
+    /// Pixels along each side of a picture; on a sheet half of them [default: 512, paper: 256]
+    #[arg(long, global = true, value_name = "N", value_parser = value_parser!(u32).range(1..=4096))]
+    size: Option<u32>,
+    /// Directory of the pictures, or file of the sheet [default: gallery, gallery/sheet.png, gallery/shapes.png, gallery/paper.png]
     #[arg(long, global = true, value_name = "PATH")]
     out: Option<PathBuf>,
     /// Scenes to render [default: all]
@@ -58,55 +61,82 @@ struct Options {
 const DIRECTORY: &str = "gallery";
 const SHEET: &str = "sheet.png";
 const SHAPES: &str = "shapes.png";
+const PAPER: &str = "paper.png";
 
-/// What is asked for.
-#[derive(Debug)]
-enum Work {
+/// What a command line asks for.
+enum Job {
     Gallery(Gallery),
     Shapes(Shapes),
+    Paper(Paper),
 }
 
-impl Work {
-    fn render(&self) -> Result<()> {
-        match self {
-            Self::Gallery(gallery) => gallery.render(),
-            Self::Shapes(shapes) => shapes.render(),
-        }
-    }
-}
+impl TryFrom<CommandLine> for Job {
+    type Error = Error;
 
-impl From<CommandLine> for Work {
-    fn from(line: CommandLine) -> Self {
+    /// What no single option shows to be wrong.
+    fn try_from(line: CommandLine) -> Result<Self, Error> {
         let options = line.options;
+        let threads = options.threads.map(usize::from);
+        let in_gallery = |name| Path::new(DIRECTORY).join(name);
+        let refuse = |kind, message: &str| Err(CommandLine::command().error(kind, message));
         let (directory, sheet) = match line.command.unwrap_or(Command::Gallery) {
-            Command::Shapes { each } => {
-                return Self::Shapes(Shapes {
-                    size: options.size,
-                    sheet: options.out.unwrap_or_else(|| Path::new(DIRECTORY).join(SHAPES)),
-                    each,
-                    threads: options.threads.map(usize::from),
-                });
-            }
             Command::Gallery => {
                 let directory = options.out.unwrap_or_else(|| DIRECTORY.into());
                 // Some scenes alone are not the sheet of all.
                 let sheet = options.scene.is_empty().then(|| directory.join(SHEET));
                 (Some(directory), sheet)
             }
-            Command::Sheet => (None, Some(options.out.unwrap_or_else(|| Path::new(DIRECTORY).join(SHEET)))),
+            Command::Sheet => (None, Some(options.out.unwrap_or_else(|| in_gallery(SHEET)))),
+            Command::Shapes { each } => {
+                if !options.scene.is_empty() {
+                    return refuse(ErrorKind::ArgumentConflict, "shapes are no scenes: the command takes no --scene");
+                }
+                return Ok(Self::Shapes(Shapes {
+                    size: options.size.unwrap_or(512),
+                    sheet: options.out.unwrap_or_else(|| in_gallery(SHAPES)),
+                    each,
+                    threads,
+                }));
+            }
+            Command::Paper => {
+                if !options.scene.is_empty() {
+                    return refuse(ErrorKind::ArgumentConflict, "the paper has shapes of its own: it takes no --scene");
+                }
+                let size = options.size.unwrap_or(256);
+                if !Paper::SIZES.contains(&size) {
+                    let message = format!(
+                        "the paper's sheet takes a --size from {} to {}",
+                        Paper::SIZES.start(),
+                        Paper::SIZES.end()
+                    );
+                    return refuse(ErrorKind::ValueValidation, &message);
+                }
+                return Ok(Self::Paper(Paper {
+                    size,
+                    sheet: options.out.unwrap_or_else(|| in_gallery(PAPER)),
+                    threads,
+                }));
+            }
         };
-        Self::Gallery(Gallery {
+        Ok(Self::Gallery(Gallery {
             scenes: options.scene,
-            size: options.size,
+            size: options.size.unwrap_or(512),
             directory,
             sheet,
-            threads: options.threads.map(usize::from),
-        })
+            threads,
+        }))
     }
 }
 
 fn main() -> ExitCode {
-    match Work::from(CommandLine::parse()).render() {
+    let done = match Job::try_from(CommandLine::parse()) {
+        Ok(Job::Gallery(gallery)) => gallery.render(),
+        Ok(Job::Shapes(shapes)) => shapes.render(),
+        Ok(Job::Paper(paper)) => paper.run(),
+        // With status 2, like all wrong usage.
+        Err(error) => error.exit(),
+    };
+    match done {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
             // The whole chain of causes in one line. If nobody can read it, the status still tells.
@@ -118,7 +148,7 @@ fn main() -> ExitCode {
 
 #[cfg(test)]
 mod tests {
-    use super::{CommandLine, Work};
+    use super::{CommandLine, Job, Paper};
     use clap::{CommandFactory, Parser};
     use gsdf_demo::gallery::Gallery;
     use gsdf_demo::scenes;
@@ -128,28 +158,60 @@ mod tests {
         CommandLine::command().debug_assert();
     }
 
-    fn work(arguments: &[&str]) -> Work {
-        CommandLine::parse_from(["gsdf"].iter().chain(arguments)).into()
+    fn job(arguments: &[&str]) -> Result<Job, clap::Error> {
+        Job::try_from(CommandLine::try_parse_from(["gsdf"].iter().chain(arguments))?)
     }
 
     fn gallery(arguments: &[&str]) -> Gallery {
-        match work(arguments) {
-            Work::Gallery(gallery) => gallery,
-            other => panic!("{other:?}"),
+        match job(arguments) {
+            Ok(Job::Gallery(gallery)) => gallery,
+            _ => panic!("{arguments:?} is no gallery"),
         }
     }
 
     #[test]
     fn shapes_are_a_sheet_and_pictures_if_asked_for() {
-        let shapes = |arguments: &[&str]| match work(arguments) {
-            Work::Shapes(shapes) => shapes,
-            other => panic!("{other:?}"),
+        let shapes = |arguments: &[&str]| match job(arguments) {
+            Ok(Job::Shapes(shapes)) => shapes,
+            _ => panic!("{arguments:?} is no sheet of shapes"),
         };
         let bare = shapes(&["shapes"]);
         assert_eq!((bare.sheet, bare.each, bare.size), ("gallery/shapes.png".into(), None, 512));
         let told = shapes(&["shapes", "--each", "here", "--out", "all.png", "--threads", "3", "--size", "64"]);
         assert_eq!((told.sheet, told.each), ("all.png".into(), Some("here".into())));
         assert_eq!((told.size, told.threads), (64, Some(3)));
+        assert!(job(&["shapes", "--scene", "s1"]).is_err());
+    }
+
+    #[test]
+    fn the_paper_is_a_sheet_of_its_own() {
+        let paper = |arguments: &[&str]| match job(arguments) {
+            Ok(Job::Paper(paper)) => paper,
+            _ => panic!("{arguments:?} is no paper"),
+        };
+        let bare = Paper {
+            size: 256,
+            sheet: "gallery/paper.png".into(),
+            threads: None,
+        };
+        assert_eq!(paper(&["paper"]), bare);
+        let told = Paper {
+            size: 300,
+            sheet: "here.png".into(),
+            threads: Some(1),
+        };
+        assert_eq!(paper(&["paper", "--size", "300", "--out", "here.png", "--threads", "1"]), told);
+    }
+
+    #[test]
+    fn what_the_paper_does_not_take_is_refused() {
+        for arguments in [["paper", "--scene", "s1"], ["paper", "--size", "191"], ["paper", "--size", "1025"]] {
+            let Err(error) = job(&arguments) else {
+                panic!("{arguments:?} is taken")
+            };
+            assert_eq!(error.exit_code(), 2);
+            assert!(error.to_string().contains(arguments[1]), "{error}");
+        }
     }
 
     #[test]

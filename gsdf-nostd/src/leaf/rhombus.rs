@@ -303,6 +303,8 @@ impl Solid for Rhombus {
             .hull(b.span(axis, toward))
             .hull(c.span(axis, toward))
             .hull(d.span(axis, toward))
+            // No more than the sides allow: a ray that leaves one beside its edge must not meet the edge by rounding.
+            .intersection(sides.span())
             .intersection(caps.span())
     }
 
