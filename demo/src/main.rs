@@ -1,8 +1,10 @@
-//! `gsdf`: renders the gallery.
+//! `gsdf`: renders the gallery, and measures the paper's reading.
 
 use clap::builder::PossibleValuesParser;
-use clap::{Args, Parser, Subcommand, value_parser};
+use clap::error::{Error, ErrorKind};
+use clap::{Args, CommandFactory, Parser, Subcommand, value_parser};
 use gsdf_demo::gallery::Gallery;
+use gsdf_demo::paper::command::Paper;
 use gsdf_demo::scenes;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -13,7 +15,7 @@ use std::process::ExitCode;
 /// Without a command it renders the gallery.
 #[derive(Debug, Parser)]
 // A command ends the names after `--scene`.
-#[command(version, subcommand_precedence_over_arg = true)]
+#[command(name = "gsdf", version, subcommand_precedence_over_arg = true)]
 struct CommandLine {
     #[command(subcommand)]
     command: Option<Command>,
@@ -27,15 +29,17 @@ enum Command {
     Gallery,
     /// Render scenes to one PNG file, on which they stand side by side
     Sheet,
+    /// Compare the ways to read the paper's composition with the exact one, on a sheet and in a table
+    Paper,
 }
 
 /// They may stand before the command or after it.
 #[derive(Args, Debug)]
 struct Options {
-    /// Pixels along each side of a picture; on the sheet half of them
-    #[arg(long, global = true, value_name = "N", default_value_t = 512, value_parser = value_parser!(u32).range(1..=4096))]
-    size: u32,
-    /// Directory of the pictures, or file of the sheet [default: gallery, gallery/sheet.png]
+    /// Pixels along each side of a picture; on a sheet half of them [default: 512, paper: 256]
+    #[arg(long, global = true, value_name = "N", value_parser = value_parser!(u32).range(1..=4096))]
+    size: Option<u32>,
+    /// Directory of the pictures, or file of the sheet [default: gallery, gallery/sheet.png, gallery/paper.png]
     #[arg(long, global = true, value_name = "PATH")]
     out: Option<PathBuf>,
     /// Scenes to render [default: all]
@@ -50,9 +54,22 @@ struct Options {
 const DIRECTORY: &str = "gallery";
 const SHEET: &str = "sheet.png";
 
-impl From<CommandLine> for Gallery {
-    fn from(line: CommandLine) -> Self {
+const PAPER: &str = "paper.png";
+
+/// What a command line asks for.
+enum Job {
+    Gallery(Gallery),
+    Paper(Paper),
+}
+
+impl TryFrom<CommandLine> for Job {
+    type Error = Error;
+
+    /// What no single option shows to be wrong.
+    fn try_from(line: CommandLine) -> Result<Self, Error> {
         let options = line.options;
+        let threads = options.threads.map(usize::from);
+        let in_gallery = |name| Path::new(DIRECTORY).join(name);
         let (directory, sheet) = match line.command.unwrap_or(Command::Gallery) {
             Command::Gallery => {
                 let directory = options.out.unwrap_or_else(|| DIRECTORY.into());
@@ -60,20 +77,46 @@ impl From<CommandLine> for Gallery {
                 let sheet = options.scene.is_empty().then(|| directory.join(SHEET));
                 (Some(directory), sheet)
             }
-            Command::Sheet => (None, Some(options.out.unwrap_or_else(|| Path::new(DIRECTORY).join(SHEET)))),
+            Command::Sheet => (None, Some(options.out.unwrap_or_else(|| in_gallery(SHEET)))),
+            Command::Paper => {
+                let refuse = |kind, message: &str| Err(CommandLine::command().error(kind, message));
+                if !options.scene.is_empty() {
+                    return refuse(ErrorKind::ArgumentConflict, "the paper has shapes of its own: it takes no --scene");
+                }
+                let size = options.size.unwrap_or(256);
+                if !Paper::SIZES.contains(&size) {
+                    let message = format!(
+                        "the paper's sheet takes a --size from {} to {}",
+                        Paper::SIZES.start(),
+                        Paper::SIZES.end()
+                    );
+                    return refuse(ErrorKind::ValueValidation, &message);
+                }
+                return Ok(Self::Paper(Paper {
+                    size,
+                    sheet: options.out.unwrap_or_else(|| in_gallery(PAPER)),
+                    threads,
+                }));
+            }
         };
-        Self {
+        Ok(Self::Gallery(Gallery {
             scenes: options.scene,
-            size: options.size,
+            size: options.size.unwrap_or(512),
             directory,
             sheet,
-            threads: options.threads.map(usize::from),
-        }
+            threads,
+        }))
     }
 }
 
 fn main() -> ExitCode {
-    match Gallery::from(CommandLine::parse()).render() {
+    let done = match Job::try_from(CommandLine::parse()) {
+        Ok(Job::Gallery(gallery)) => gallery.render(),
+        Ok(Job::Paper(paper)) => paper.run(),
+        // With status 2, like all wrong usage.
+        Err(error) => error.exit(),
+    };
+    match done {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
             // The whole chain of causes in one line. If nobody can read it, the status still tells.
@@ -85,7 +128,7 @@ fn main() -> ExitCode {
 
 #[cfg(test)]
 mod tests {
-    use super::CommandLine;
+    use super::{CommandLine, Job, Paper};
     use clap::{CommandFactory, Parser};
     use gsdf_demo::gallery::Gallery;
     use gsdf_demo::scenes;
@@ -95,8 +138,46 @@ mod tests {
         CommandLine::command().debug_assert();
     }
 
+    fn job(arguments: &[&str]) -> Result<Job, clap::Error> {
+        Job::try_from(CommandLine::try_parse_from(["gsdf"].iter().chain(arguments))?)
+    }
+
     fn gallery(arguments: &[&str]) -> Gallery {
-        CommandLine::parse_from(["gsdf"].iter().chain(arguments)).into()
+        match job(arguments) {
+            Ok(Job::Gallery(gallery)) => gallery,
+            _ => panic!("{arguments:?} is no gallery"),
+        }
+    }
+
+    #[test]
+    fn the_paper_is_a_sheet_of_its_own() {
+        let paper = |arguments: &[&str]| match job(arguments) {
+            Ok(Job::Paper(paper)) => paper,
+            _ => panic!("{arguments:?} is no paper"),
+        };
+        let bare = Paper {
+            size: 256,
+            sheet: "gallery/paper.png".into(),
+            threads: None,
+        };
+        assert_eq!(paper(&["paper"]), bare);
+        let told = Paper {
+            size: 300,
+            sheet: "here.png".into(),
+            threads: Some(1),
+        };
+        assert_eq!(paper(&["paper", "--size", "300", "--out", "here.png", "--threads", "1"]), told);
+    }
+
+    #[test]
+    fn what_the_paper_does_not_take_is_refused() {
+        for arguments in [["paper", "--scene", "s1"], ["paper", "--size", "191"], ["paper", "--size", "1025"]] {
+            let Err(error) = job(&arguments) else {
+                panic!("{arguments:?} is taken")
+            };
+            assert_eq!(error.exit_code(), 2);
+            assert!(error.to_string().contains(arguments[1]), "{error}");
+        }
     }
 
     #[test]

@@ -79,7 +79,7 @@
 //!
 //! # Sources
 //! H. Yamada, Generalized Signed Distance Functions for Raytracing Algorithms (2021), of which this is a repair: most
-//! formulas printed there miss a sign, a factor or a case. S. Roth, Ray Casting for Modeling Solids (1982). I.
+//! formulas printed there miss a sign, a factor or a case ([`errata`]). S. Roth, Ray Casting for Modeling Solids (1982). I.
 //! Quilez, Distance functions. E. Haines, J. Günther, T. Akenine-Möller, Precision Improvements for Ray/Sphere
 //! Intersection (2019).
 #![no_std]
@@ -89,6 +89,10 @@
 #[cfg(any(doc, doctest))]
 #[doc = include_str!("../docs/embedding.md")]
 pub mod embedding {}
+
+#[cfg(any(doc, doctest))]
+#[doc = include_str!("../docs/errata.md")]
+pub mod errata {}
 
 mod camera;
 mod csg;
