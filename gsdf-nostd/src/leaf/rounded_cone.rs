@@ -194,10 +194,12 @@ impl Solid for RoundedCone {
     fn span<T: Real>(&self, seen: &Self::Seen<T>, toward: &Toward<T>) -> Span<T> {
         let profile = self.profile(toward.vv);
         let slab = plane::slab(seen.over[0], seen.over[1], reciprocal_speed(toward.v.dot(profile.axis)));
-        let body = seen.side.span(&profile, toward).intersection(slab);
+        let side = seen.side.span(&profile, toward);
         let first = self.ends[0].span(&seen.ends[0], toward);
         let second = self.ends[1].span(&seen.ends[1], toward);
-        body.hull(first).hull(second)
+        // All of it is within the side, endless as that is: a ray that leaves the side beside a seam does not meet the
+        // sphere again that touches it there.
+        side.intersection(slab).hull(first).hull(second).intersection(side)
     }
 
     /// Face 0 is the side, 1 the sphere around the first centre, 2 that around the second.
