@@ -1,7 +1,8 @@
 //! How often a reading is wrong, and what it takes.
 
 use super::cameras::{Side, cameras};
-use super::reading::{Reader, Reading};
+use super::reader::Reader;
+use super::reading::Reading;
 use super::shapes::Shape;
 use anyhow::{Context, Result};
 use core::hint::black_box;

@@ -6,7 +6,7 @@
 //! module evaluates them all on the roots that the library's own leaves have, so that no formula is written twice, and
 //! compares them with the exact answer, which is [`march`](gsdf_nostd::march).
 //!
-//! - [`reading`]: the ways to read it, on any program of the default leaves.
+//! - [`reading`], [`reader`]: the ways to read it, and what they make of any program of the default leaves.
 //! - [`shapes`]: what the paper composes, of its four primitives.
 //! - [`cameras`], [`measure`]: how often each is wrong, from where, and what it takes.
 //! - [`picture`], [`command`]: the sheet and the table of `gsdf paper`.
@@ -34,5 +34,6 @@ pub mod cameras;
 pub mod command;
 pub mod measure;
 pub mod picture;
+pub mod reader;
 pub mod reading;
 pub mod shapes;

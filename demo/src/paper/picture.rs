@@ -1,7 +1,8 @@
 //! The shapes under each reading, side by side on one sheet, with what is wrong in colours.
 
 use super::measure::{Count, Each, Verdict};
-use super::reading::{Reader, Reading};
+use super::reader::Reader;
+use super::reading::Reading;
 use super::shapes::Shape;
 use crate::palette::{CORAL, GROUND, INK, SAND, SLATE, to_srgb};
 use crate::sheet::sheet;

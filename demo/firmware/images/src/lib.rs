@@ -1,6 +1,7 @@
 //! What the images share: the board they run on, and the query whose size they measure.
 #![no_std]
 
+pub mod balls;
 pub mod board;
 mod query;
 mod rows;

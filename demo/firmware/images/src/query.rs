@@ -30,22 +30,3 @@ pub fn ask_distance<const LEAVES: usize, const N: usize, L: Solid>(scene: &Csg<N
         black_box::<Fpu>(sight.gsdf());
     }
 }
-
-/// Declares `SCENE`, four balls in flash, with the leaf type given. `Sphere` must be in scope.
-#[macro_export]
-macro_rules! four_balls {
-    ($leaf:ty) => {
-        gsdf_nostd::csg! {
-            /// Four balls in a row, each of which touches or overlaps the next.
-            const BALLS: $leaf = union(
-                Sphere::new(glam::Vec3::new(-3.0, 0.0, 0.0), 1.0),
-                Sphere::new(glam::Vec3::new(-1.0, 0.0, 0.0), 1.0),
-                Sphere::new(glam::Vec3::new(1.0, 0.0, 0.0), 1.25),
-                Sphere::new(glam::Vec3::new(3.0, 0.0, 0.0), 1.0)
-            )
-        }
-
-        /// The scene, in flash.
-        pub(crate) static SCENE: gsdf_nostd::Csg<7, $leaf> = BALLS;
-    };
-}

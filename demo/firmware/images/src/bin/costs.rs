@@ -2,6 +2,7 @@
 #![no_std]
 #![no_main]
 
+use gsdf_firmware::balls::{EVERYTHING, SPHERES};
 use gsdf_firmware::board::{self, println};
 use gsdf_firmware::{ask, ask_distance};
 use gsdf_parts::Fpu;
@@ -33,29 +34,9 @@ impl Meter for Instructions {
 
 /// The stack of the queries of the images that are named.
 fn measure_stack() {
-    println!("stack spheres {}", board::stack_used_by(|| ask(&spheres::SCENE)));
-    println!("stack everything {}", board::stack_used_by(|| ask(&everything::SCENE)));
-    println!(
-        "stack distance {}",
-        board::stack_used_by(|| ask_distance::<4, 7, _>(&spheres::SCENE))
-    );
-}
-
-mod spheres {
-    use gsdf_nostd::{Sphere, leaf_set};
-
-    leaf_set! {
-        /// As the image `spheres` has it.
-        pub(crate) enum Ball { Sphere(Sphere) }
-    }
-
-    gsdf_firmware::four_balls!(Ball);
-}
-
-mod everything {
-    use gsdf_nostd::{Leaf, Sphere};
-
-    gsdf_firmware::four_balls!(Leaf);
+    println!("stack spheres {}", board::stack_used_by(|| ask(&SPHERES)));
+    println!("stack everything {}", board::stack_used_by(|| ask(&EVERYTHING)));
+    println!("stack distance {}", board::stack_used_by(|| ask_distance::<4, 7, _>(&SPHERES)));
 }
 
 #[board::entry]

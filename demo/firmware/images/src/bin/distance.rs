@@ -2,18 +2,11 @@
 #![no_std]
 #![no_main]
 
-use gsdf_firmware::{ask_distance, board, four_balls};
-use gsdf_nostd::{Sphere, leaf_set};
-
-leaf_set! {
-    /// The solids of the scene, so that no others are linked.
-    enum Ball { Sphere(Sphere) }
-}
-
-four_balls!(Ball);
+use gsdf_firmware::balls::SPHERES;
+use gsdf_firmware::{ask_distance, board};
 
 #[board::entry]
 fn main() -> ! {
-    ask_distance::<4, 7, _>(&SCENE);
+    ask_distance::<4, 7, _>(&SPHERES);
     board::stop()
 }

@@ -2,13 +2,11 @@
 #![no_std]
 #![no_main]
 
-use gsdf_firmware::{ask, board, four_balls};
-use gsdf_nostd::{Leaf, Sphere};
-
-four_balls!(Leaf);
+use gsdf_firmware::balls::EVERYTHING;
+use gsdf_firmware::{ask, board};
 
 #[board::entry]
 fn main() -> ! {
-    ask(&SCENE);
+    ask(&EVERYTHING);
     board::stop()
 }
