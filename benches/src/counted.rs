@@ -148,6 +148,10 @@ impl Real for Counted {
         count(Kind::Sign);
         Self(Real::copysign(self.0, sign.0))
     }
+    fn next_up(self) -> Self {
+        count(Kind::Addition);
+        Self(Real::next_up(self.0))
+    }
     fn lt(self, other: Self) -> bool {
         count(Kind::Comparison);
         self.0 < other.0

@@ -3,12 +3,13 @@
 //! | command | what it measures |
 //! |---|---|
 //! | `cargo bench --bench race` | scenes, A and B by turns in one process: ratios with confidence intervals; `-- --csv FILE` to publish them |
+//! | `cargo bench --bench sums` | shapes against the sum of their parts: ratios with confidence intervals, and operations |
 //! | `cargo bench --bench counts` | operations, roots, sweeps and steps per ray: the same numbers on every machine |
 //! | `cargo bench --bench scenes` | scenes: time per picture of each contender |
 //! | `cargo bench --bench leaves` | leaves: time per evaluation, one at a time and in packets |
 //! | `cargo bench --bench parry` | ray casts on the solids parry3d has too |
 //!
-//! Times on machines that others use too swing by a factor of three within minutes. Only the race is a comparison: there each ratio is one of two neighbours in time.
+//! Times on machines that others use too swing by a factor of three within minutes. Only the race and the sums are comparisons: there each ratio is one of two neighbours in time.
 
 pub mod arena;
 pub mod arguments;
@@ -22,3 +23,4 @@ pub mod machine;
 pub mod race;
 pub mod report;
 pub mod stats;
+pub mod sums;

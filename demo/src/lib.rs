@@ -5,6 +5,7 @@
 //! - [`frame`] and [`leave`]: packets of rays that arrive at surfaces, and those that go on from there.
 //! - [`light`], [`shade`] and [`palette`]: the light and the colours. [`edges`]: where one ray per pixel is not enough.
 //! - [`gallery`], [`sheet`] and [`output`]: the pictures as files, and the table about them.
+//! - [`shapes`]: a picture of each shape there is, all on one sheet and each for its documentation.
 //! - [`paper`]: the composition of the paper this library repairs, in the ways it can be read, measured.
 
 pub mod edges;
@@ -18,4 +19,5 @@ pub mod paper;
 pub mod render;
 pub mod scenes;
 pub mod shade;
+pub mod shapes;
 pub mod sheet;

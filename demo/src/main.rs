@@ -1,4 +1,4 @@
-//! `gsdf`: renders the gallery, and measures the paper's reading.
+//! `gsdf`: renders the gallery and the shapes, and measures the paper's reading.
 
 use clap::builder::PossibleValuesParser;
 use clap::error::{Error, ErrorKind};
@@ -6,6 +6,7 @@ use clap::{Args, CommandFactory, Parser, Subcommand, value_parser};
 use gsdf_demo::gallery::Gallery;
 use gsdf_demo::paper::command::Paper;
 use gsdf_demo::scenes;
+use gsdf_demo::shapes::Shapes;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -23,12 +24,18 @@ struct CommandLine {
     options: Options,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Subcommand)]
+#[derive(Clone, Debug, PartialEq, Subcommand)]
 enum Command {
     /// Render scenes to PNG files, with a table of what each took, and all scenes on one sheet
     Gallery,
     /// Render scenes to one PNG file, on which they stand side by side
     Sheet,
+    /// Render every shape there is, all on one sheet
+    Shapes {
+        /// Also render each to a small PNG file in this directory, with Markdown that holds it
+        #[arg(long, value_name = "DIRECTORY")]
+        each: Option<PathBuf>,
+    },
     /// Compare the ways to read the paper's composition with the exact one, on a sheet and in a table
     Paper,
 }
@@ -39,7 +46,7 @@ struct Options {
     /// Pixels along each side of a picture; on a sheet half of them [default: 512, paper: 256]
     #[arg(long, global = true, value_name = "N", value_parser = value_parser!(u32).range(1..=4096))]
     size: Option<u32>,
-    /// Directory of the pictures, or file of the sheet [default: gallery, gallery/sheet.png, gallery/paper.png]
+    /// Directory of the pictures, or file of the sheet [default: gallery, gallery/sheet.png, gallery/shapes.png, gallery/paper.png]
     #[arg(long, global = true, value_name = "PATH")]
     out: Option<PathBuf>,
     /// Scenes to render [default: all]
@@ -53,12 +60,13 @@ struct Options {
 /// Where pictures and sheet lie if nothing else is said.
 const DIRECTORY: &str = "gallery";
 const SHEET: &str = "sheet.png";
-
+const SHAPES: &str = "shapes.png";
 const PAPER: &str = "paper.png";
 
 /// What a command line asks for.
 enum Job {
     Gallery(Gallery),
+    Shapes(Shapes),
     Paper(Paper),
 }
 
@@ -70,6 +78,7 @@ impl TryFrom<CommandLine> for Job {
         let options = line.options;
         let threads = options.threads.map(usize::from);
         let in_gallery = |name| Path::new(DIRECTORY).join(name);
+        let refuse = |kind, message: &str| Err(CommandLine::command().error(kind, message));
         let (directory, sheet) = match line.command.unwrap_or(Command::Gallery) {
             Command::Gallery => {
                 let directory = options.out.unwrap_or_else(|| DIRECTORY.into());
@@ -78,8 +87,18 @@ impl TryFrom<CommandLine> for Job {
                 (Some(directory), sheet)
             }
             Command::Sheet => (None, Some(options.out.unwrap_or_else(|| in_gallery(SHEET)))),
+            Command::Shapes { each } => {
+                if !options.scene.is_empty() {
+                    return refuse(ErrorKind::ArgumentConflict, "shapes are no scenes: the command takes no --scene");
+                }
+                return Ok(Self::Shapes(Shapes {
+                    size: options.size.unwrap_or(512),
+                    sheet: options.out.unwrap_or_else(|| in_gallery(SHAPES)),
+                    each,
+                    threads,
+                }));
+            }
             Command::Paper => {
-                let refuse = |kind, message: &str| Err(CommandLine::command().error(kind, message));
                 if !options.scene.is_empty() {
                     return refuse(ErrorKind::ArgumentConflict, "the paper has shapes of its own: it takes no --scene");
                 }
@@ -112,6 +131,7 @@ impl TryFrom<CommandLine> for Job {
 fn main() -> ExitCode {
     let done = match Job::try_from(CommandLine::parse()) {
         Ok(Job::Gallery(gallery)) => gallery.render(),
+        Ok(Job::Shapes(shapes)) => shapes.render(),
         Ok(Job::Paper(paper)) => paper.run(),
         // With status 2, like all wrong usage.
         Err(error) => error.exit(),
@@ -147,6 +167,20 @@ mod tests {
             Ok(Job::Gallery(gallery)) => gallery,
             _ => panic!("{arguments:?} is no gallery"),
         }
+    }
+
+    #[test]
+    fn shapes_are_a_sheet_and_pictures_if_asked_for() {
+        let shapes = |arguments: &[&str]| match job(arguments) {
+            Ok(Job::Shapes(shapes)) => shapes,
+            _ => panic!("{arguments:?} is no sheet of shapes"),
+        };
+        let bare = shapes(&["shapes"]);
+        assert_eq!((bare.sheet, bare.each, bare.size), ("gallery/shapes.png".into(), None, 512));
+        let told = shapes(&["shapes", "--each", "here", "--out", "all.png", "--threads", "3", "--size", "64"]);
+        assert_eq!((told.sheet, told.each), ("all.png".into(), Some("here".into())));
+        assert_eq!((told.size, told.threads), (64, Some(3)));
+        assert!(job(&["shapes", "--scene", "s1"]).is_err());
     }
 
     #[test]

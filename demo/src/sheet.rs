@@ -8,26 +8,37 @@ use image::{Rgb, RgbImage, imageops};
 const COLUMNS: u32 = 4;
 /// How far the pictures are apart, in pixels, and what shows there.
 const GAP: u32 = 4;
-const PAPER: Rgb<u8> = Rgb([255; 3]);
+pub(crate) const PAPER: Rgb<u8> = Rgb([255; 3]);
 
 /// Pictures of one size, halved and side by side, row by row.
 #[must_use]
 pub fn sheet(pictures: &[RgbImage]) -> RgbImage {
-    let halves: Vec<_> = pictures.iter().map(halved).collect();
-    let count = halves.len() as u32;
+    side_by_side(&pictures.iter().map(halved).collect::<Vec<_>>())
+}
+
+/// Pictures of one size, as they are, side by side, row by row.
+#[must_use]
+pub fn side_by_side(pictures: &[RgbImage]) -> RgbImage {
+    let count = pictures.len() as u32;
     let columns = COLUMNS.min(count);
-    let (width, height) = halves.first().map_or((0, 0), RgbImage::dimensions);
+    let (width, height) = pictures.first().map_or((0, 0), RgbImage::dimensions);
     let extent = |cells: u32, size: u32| (cells * (size + GAP)).saturating_sub(GAP);
     let mut sheet = RgbImage::from_pixel(extent(columns, width), extent(count.div_ceil(COLUMNS), height), PAPER);
-    for (half, number) in halves.iter().zip(0..) {
+    for (picture, number) in pictures.iter().zip(0..) {
         let (column, row) = (number % COLUMNS, number / COLUMNS);
-        imageops::replace(&mut sheet, half, i64::from(column * (width + GAP)), i64::from(row * (height + GAP)));
+        imageops::replace(
+            &mut sheet,
+            picture,
+            i64::from(column * (width + GAP)),
+            i64::from(row * (height + GAP)),
+        );
     }
     sheet
 }
 
 /// A picture half as wide and half as high, each pixel the mean of the light of four.
-fn halved(picture: &RgbImage) -> RgbImage {
+#[must_use]
+pub fn halved(picture: &RgbImage) -> RgbImage {
     let (width, height) = picture.dimensions();
     RgbImage::from_fn(width.div_ceil(2), height.div_ceil(2), |x, y| {
         let light = |right: u32, down: u32| {

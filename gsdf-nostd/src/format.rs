@@ -6,7 +6,10 @@
 use crate::camera::{Camera, Raster};
 use crate::csg::{Crossing, Csg, Departure, Hit, March, Node, Program, Start};
 use crate::invalid::Invalid;
-use crate::leaf::{Bounds, CappedCone, CappedCylinder, Capsule, Cone, Cuboid, Cylinder, HalfSpace, Nappe, Sphere};
+use crate::leaf::{
+    Bounds, CappedCone, CappedCylinder, Capsule, Cone, Cuboid, Cylinder, HalfSpace, HexagonalPrism, Nappe, Octahedron, Pyramid, Quad,
+    Rhombus, RoundedCone, SolidAngle, Sphere, Triangle, TriangularPrism,
+};
 use crate::ray::{Ray, RayError};
 use crate::real::Lane;
 use crate::span::Span;
@@ -62,6 +65,20 @@ format! {
     CappedCone: |solid| "capped cone bottom={} top={} radii={},{}",
         Shown(solid.bottom()), Shown(solid.top()), solid.bottom_radius(), solid.top_radius();
     Capsule: |solid| "capsule ends={},{} radius={}", Shown(solid.ends()[0]), Shown(solid.ends()[1]), solid.radius();
+    HexagonalPrism: |solid| "hexagonal prism bottom={} top={} apothem={}", Shown(solid.bottom()), solid.top(), solid.apothem();
+    TriangularPrism: |solid| "triangular prism bottom={} top={} inradius={}",
+        Shown(solid.bottom()), solid.top(), solid.inradius();
+    Octahedron: |solid| "octahedron center={} radius={}", Shown(solid.center()), solid.radius();
+    Pyramid: |solid| "pyramid base={} half_width={} height={}", Shown(solid.base()), solid.half_width(), solid.height();
+    Rhombus: |solid| "rhombus bottom={} top={} half diagonals={},{} rounding={}",
+        Shown(solid.bottom()), solid.top(), solid.half_x(), solid.half_z(), solid.rounding();
+    RoundedCone: |solid| "rounded cone ends={},{} radii={},{}",
+        Shown(solid.ends()[0]), Shown(solid.ends()[1]), solid.radii()[0], solid.radii()[1];
+    SolidAngle: |solid| "solid angle apex={} axis={} reach={} slope={}",
+        Shown(solid.apex()), Shown(solid.axis()), solid.reach(), solid.slope();
+    Triangle: |solid| "triangle {}, {}, {}", Shown(solid.corners()[0]), Shown(solid.corners()[1]), Shown(solid.corners()[2]);
+    Quad: |solid| "quad {}, {}, {}, {}",
+        Shown(solid.corners()[0]), Shown(solid.corners()[1]), Shown(solid.corners()[2]), Shown(solid.corners()[3]);
 }
 
 impl<T: Format> Format for Span<T> {

@@ -39,6 +39,14 @@ pub enum Fault {
     OffAxis,
     /// An angle outside the open interval from 0 to 90 degrees.
     NotAcute,
+    /// An angle below 90 degrees, or not below 180, where a wide one is meant.
+    NotWide,
+    /// Four points that do not lie in a plane.
+    NotPlanar,
+    /// Four points that are not, in their order, the corners of a convex figure.
+    NotConvex,
+    /// A sphere that contains the other, or all but a last rest of it.
+    Contained,
     /// Vectors that coincide, vanish or are parallel where they must not be.
     Degenerate,
     /// A matrix without an inverse, or one that stretches by more than 2^10 or less than 2^-10; the number found is
@@ -82,6 +90,10 @@ impl Invalid {
             Fault::Reversed => "two ends or faces coincide or are in the wrong order: swap them or move them apart",
             Fault::OffAxis => "a point does not lie on the axis it ends: move it there",
             Fault::NotAcute => "an angle is not strictly between 0 and 90 degrees: use a half-space or a complement",
+            Fault::NotWide => "an angle is not from 90 to below 180 degrees: use the narrow solid, or a sphere",
+            Fault::NotPlanar => "four corners do not lie in a plane: move one, or use two triangles",
+            Fault::NotConvex => "four corners are not in order around a convex figure: reorder them, or use two triangles",
+            Fault::Contained => "one sphere contains the other: use the larger one alone",
             Fault::Degenerate => "points coincide or directions are parallel: move them apart",
             Fault::Singular => "a matrix has no inverse, or stretches by more than 2^10 or less than 2^-10",
         }

@@ -105,6 +105,7 @@ mod range;
 mod ray;
 mod real;
 mod root;
+mod shape;
 mod span;
 mod toward;
 mod trace;
@@ -118,12 +119,14 @@ pub use csg::{
 };
 pub use invalid::{Fault, Invalid};
 pub use leaf::{
-    Bounds, CappedCone, CappedCylinder, Capsule, Cone, Cuboid, Cylinder, Ground, HalfSpace, Leaf, Nappe, Solid, Sphere, Surface,
+    Bounds, CappedCone, CappedCylinder, Capsule, Cone, Cuboid, Cylinder, Ground, HalfSpace, HexagonalPrism, Leaf, Nappe, Octahedron,
+    Pyramid, Quad, Rhombus, RoundedCone, Solid, SolidAngle, Sphere, Surface, Triangle, TriangularPrism,
 };
 pub use quadratic::roots;
 pub use range::{MAX_LENGTH, MAX_SPEED, MAX_STRETCH, MIN_LENGTH, UNIT_TOLERANCE};
 pub use ray::{Line, Ray, RayError};
 pub use real::{Lane, Mask, Real};
+pub use shape::{BoxFrame, DoubleCone, WideSolidAngle};
 pub use span::Span;
 pub use toward::{Toward, reciprocal_speed};
 pub use trace::{Field, SphereTracer, Traced};

@@ -70,6 +70,9 @@ pub trait Real: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Se
     /// The magnitude of `self` with the sign bit of `sign`.
     #[must_use]
     fn copysign(self, sign: Self) -> Self;
+    /// The next number after the value: the least one that is greater. Infinity after infinity; NaN after NaN.
+    #[must_use]
+    fn next_up(self) -> Self;
     /// `self < other`, false where either is NaN.
     fn lt(self, other: Self) -> Self::Mask;
     /// `self <= other`, false where either is NaN.
@@ -143,6 +146,10 @@ macro_rules! real_scalar {
                 <$float>::copysign(self, sign)
             }
             #[inline(always)]
+            fn next_up(self) -> Self {
+                <$float>::next_up(self)
+            }
+            #[inline(always)]
             fn lt(self, other: Self) -> bool {
                 self < other
             }
@@ -190,6 +197,15 @@ mod tests {
         assert_eq!(Real::max(f64::NAN, 1.0), 1.0);
         assert!(Real::min(1.0_f32, f32::NAN).is_nan());
         assert!(Real::max(1.0_f64, f64::NAN).is_nan());
+    }
+
+    #[test]
+    fn the_next_number_is_a_bit_above() {
+        assert_eq!(Real::next_up(1.0_f32), 1.0 + f32::EPSILON);
+        assert_eq!(Real::next_up(-1.0_f64), -1.0 + f64::EPSILON / 2.0);
+        assert_eq!(Real::next_up(-0.0_f32), f32::from_bits(1));
+        assert_eq!(Real::next_up(f32::INFINITY), f32::INFINITY);
+        assert!(Real::next_up(f64::NAN).is_nan());
     }
 
     #[test]

@@ -61,6 +61,9 @@ impl Real for Named {
     fn copysign(self, sign: Self) -> Self {
         Self(f32::copysign(self.0, sign.0))
     }
+    fn next_up(self) -> Self {
+        Self(f32::next_up(self.0))
+    }
     fn lt(self, other: Self) -> bool {
         self.0 < other.0
     }

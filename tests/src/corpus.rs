@@ -10,6 +10,8 @@ use rand::{Rng, RngExt};
 pub enum Class {
     /// From afar at a point inside.
     Aimed,
+    /// From afar at an edge, a corner, a tip or a seam; every second start is moved by up to 32 units in the last place.
+    Edge,
     /// From a point inside.
     Inside,
     /// Along the surface at a point of it, each coordinate of the start moved by up to 32 units in the last place.
@@ -23,8 +25,9 @@ pub enum Class {
 }
 
 /// The classes with the share of each in a hundred.
-pub const SHARES: [(Class, u32); 6] = [
-    (Class::Aimed, 40),
+pub const SHARES: [(Class, u32); 7] = [
+    (Class::Aimed, 30),
+    (Class::Edge, 10),
     (Class::Inside, 15),
     (Class::Tangent, 15),
     (Class::Parallel, 10),
@@ -67,6 +70,13 @@ pub fn ray(rng: &mut impl Rng, shape: &Shape, size: f64, reach: f64) -> (Class, 
             let target = shape.interior(rng);
             let from = target + unit(rng) * distance;
             (from.as_vec3(), towards(from.as_vec3().as_dvec3(), target).as_vec3())
+        }
+        Class::Edge => {
+            let target = shape.edge_point(rng);
+            let from = (target + unit(rng) * distance).as_vec3();
+            let steps = if rng.random_range(0..2) == 0 { 0 } else { 32 };
+            let direction = towards(from.as_dvec3(), target).as_vec3();
+            (jittered(rng, from, steps), direction)
         }
         Class::Inside => (shape.interior(rng).as_vec3(), (unit(rng) * length).as_vec3()),
         Class::Tangent => {

@@ -63,6 +63,17 @@ impl Trial {
             .exact_span()
             .map_or((f64::INFINITY, f64::NEG_INFINITY), |(enter, exit)| (enter.to_f64(), exit.to_f64()));
         let mut roundings = 0.25;
+        // A facet holds no points that a miss of it could be told by.
+        let travelled = exact.0.abs().min(BEYOND);
+        while computed.0 >= computed.1
+            && roundings < 1_048_576.0
+            && exact.0 <= exact.1
+            && self
+                .shape
+                .is_pierced(self.origin, self.direction, roundings * roundoff * self.scale_at(travelled))
+        {
+            roundings *= 2.0;
+        }
         for (t, inside) in disagreements(&[exact], &[computed]) {
             // What is inside must not be so by more than the offset, what is outside must be inside with it.
             let explained = |roundings: f64| {

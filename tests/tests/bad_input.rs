@@ -2,7 +2,8 @@
 
 use glam::{Mat3, Vec3, vec3};
 use gsdf_nostd::{
-    Camera, CappedCone, CappedCylinder, Capsule, Cone, Csg, Cuboid, Cylinder, Draft, Fault, HalfSpace, Hit, Invalid, Leaf, Nappe, Node,
+    Camera, CappedCone, CappedCylinder, Capsule, Cone, Csg, Cuboid, Cylinder, Draft, Fault, HalfSpace, HexagonalPrism, Hit, Invalid, Leaf,
+    Nappe, Node, Octahedron, Pyramid, Quad, Rhombus, RoundedCone, SolidAngle, Triangle, TriangularPrism,
 };
 use gsdf_nostd::{MAX_LENGTH, MAX_SPEED, MIN_LENGTH, Ray, RayError, Solid, Span, Sphere, Transform, csg};
 use rand::{Rng, RngExt, SeedableRng};
@@ -50,9 +51,13 @@ const LOW: &[f32] = &[0.0, -1.0, 0.0];
 const HIGH: &[f32] = &[0.0, 2.0, 0.0];
 const UP: &[f32] = &[0.0, 1.0, 0.0];
 const SIZE: &[f32] = &[0.5];
+/// The place of the bottom and the height of the top, which is a coordinate as well.
+const BOTTOM_TO_TOP: &[f32] = &[0.0, -1.0, 0.0, 2.0];
+/// The one size that may be zero.
+const ROUNDING: &[f32] = &[0.25];
 
 #[rustfmt::skip]
-const CONSTRUCTORS: [Constructor; 13] = [
+const CONSTRUCTORS: [Constructor; 22] = [
     constructor("HalfSpace::new", &[(PLACE, "half-space point"), (OBLIQUE, "half-space normal")],
         |n| HalfSpace::new(at(n, 0), at(n, 3)).map(Leaf::from)),
     constructor("Sphere::new", &[(PLACE, "sphere center"), (SIZE, "sphere radius")],
@@ -79,6 +84,24 @@ const CONSTRUCTORS: [Constructor; 13] = [
         |n| CappedCone::between(at(n, 0), at(n, 3), n[6], n[7]).map(Leaf::from)),
     constructor("Capsule::new", &[(LOW, "capsule|center"), (PLACE, "capsule|center"), (SIZE, "radius")],
         |n| Capsule::new(at(n, 0), at(n, 3), n[6]).map(Leaf::from)),
+    constructor("HexagonalPrism::new", &[(BOTTOM_TO_TOP, "bottom|top"), (SIZE, "apothem")],
+        |n| HexagonalPrism::new(at(n, 0), n[3], n[4]).map(Leaf::from)),
+    constructor("TriangularPrism::new", &[(BOTTOM_TO_TOP, "bottom|top"), (SIZE, "inradius")],
+        |n| TriangularPrism::new(at(n, 0), n[3], n[4]).map(Leaf::from)),
+    constructor("Octahedron::new", &[(PLACE, "center"), (SIZE, "radius")],
+        |n| Octahedron::new(at(n, 0), n[3]).map(Leaf::from)),
+    constructor("Pyramid::new", &[(PLACE, "base"), (SIZE, "half width"), (SIZE, "height")],
+        |n| Pyramid::new(at(n, 0), n[3], n[4]).map(Leaf::from)),
+    constructor("Rhombus::new", &[(BOTTOM_TO_TOP, "bottom|top"), (SIZE, "half x|half z|diagonal"), (SIZE, "half z|half x|diagonal"), (ROUNDING, "rounding")],
+        |n| Rhombus::new(at(n, 0), n[3], n[4], n[5], n[6]).map(Leaf::from)),
+    constructor("RoundedCone::new", &[(LOW, "rounded cone|center"), (PLACE, "rounded cone|center"), (SIZE, "radius|side"), (SIZE, "radius|side")],
+        |n| RoundedCone::new(at(n, 0), at(n, 3), n[6], n[7]).map(Leaf::from)),
+    constructor("SolidAngle::new", &[(PLACE, "apex"), (OBLIQUE, "axis"), (SIZE, "reach"), (SIZE, "radius"), (SIZE, "height")],
+        |n| SolidAngle::new(at(n, 0), at(n, 3), n[6], n[7], n[8]).map(Leaf::from)),
+    constructor("Triangle::new", &[(LOW, "triangle"), (HIGH, "triangle"), (PLACE, "triangle")],
+        |n| Triangle::new(at(n, 0), at(n, 3), at(n, 6)).map(Leaf::from)),
+    constructor("Quad::new", &[(&[0.0, 0.0, 1.0], "quad"), (&[1.0, 0.0, 1.0], "quad"), (&[1.0, 2.0, 1.0], "quad"), (&[0.0, 1.0, 1.0], "quad")],
+        |n| Quad::new(at(n, 0), at(n, 3), at(n, 6), at(n, 9)).map(Leaf::from)),
 ];
 
 /// Asks a solid everything about a few places near and far; a NaN, or a hit that is none, fails.
@@ -126,7 +149,7 @@ fn check(ray: &Ray, hit: Option<Hit>, leaves: u32, what: &str) -> bool {
         hit.point.is_finite() && (hit.normal.length() - 1.0).abs() < 1e-5,
         "{what}: {hit:?} along {ray:?}"
     );
-    assert!(hit.leaf < leaves && hit.face < 6, "{what}: {hit:?} along {ray:?}");
+    assert!(hit.leaf < leaves && hit.face < 10, "{what}: {hit:?} along {ray:?}");
     true
 }
 
@@ -173,12 +196,13 @@ fn sizes_that_are_none_are_refused() {
         let right = constructor.right();
         let mut index = 0;
         for (numbers, _) in constructor.parameters {
-            // Numbers that come alone are sizes and angles; those in threes are places and directions, where zero is as good as any.
+            // Numbers that come alone are sizes and angles; the others are places and directions, where zero is as good as any.
+            let may_be_zero = numbers.len() > 1 || *numbers == ROUNDING;
             for size in [0.0, -0.0, -1.0, 1e-45, f32::MIN_POSITIVE, MIN_LENGTH / 2.0] {
                 let mut spoilt = right.clone();
                 spoilt[index] = size;
                 let refused = (constructor.build)(&spoilt).is_err();
-                assert!(refused || numbers.len() == 3, "{} with number {index} = {size:e}", constructor.name);
+                assert!(refused || may_be_zero, "{} with number {index} = {size:e}", constructor.name);
             }
             index += numbers.len();
         }

@@ -6,8 +6,8 @@ use gsdf_parts::Fpu;
 use gsdf_simd::F32x8;
 use gsdf_tests::conformance::octahedron::Octahedron;
 use gsdf_tests::conformance::specimen::{Specimen, of_kind};
-use gsdf_tests::shape::KINDS;
-use gsdf_tests::{arithmetic_conformance, leaf_conformance};
+use gsdf_tests::shape::SOLIDS;
+use gsdf_tests::{arithmetic_conformance, facet_conformance, leaf_conformance};
 use rand::RngExt;
 use rand_pcg::Pcg64;
 
@@ -19,7 +19,10 @@ arithmetic_conformance!(packet_of_eight: F32x8);
 /// A leaf of the library: its number among [`KINDS`], and how it is found in a [`Leaf`].
 macro_rules! library_leaf {
     ($name:ident: $kind:literal, $variant:ident) => {
-        leaf_conformance!($name: |rng: &mut Pcg64| of_kind(rng, $kind, |leaf| match leaf {
+        library_leaf!($name: $kind, $variant, leaf_conformance);
+    };
+    ($name:ident: $kind:literal, $variant:ident, $duties:ident) => {
+        $duties!($name: |rng: &mut Pcg64| of_kind(rng, $kind, |leaf| match leaf {
             Leaf::$variant(solid) => Some(solid),
             _ => None,
         }));
@@ -35,10 +38,19 @@ library_leaf!(capped_cylinder: 5, CappedCylinder);
 library_leaf!(cone: 6, Cone);
 library_leaf!(capped_cone: 7, CappedCone);
 library_leaf!(capsule: 8, Capsule);
+library_leaf!(hexagonal_prism: 9, HexagonalPrism);
+library_leaf!(triangular_prism: 10, TriangularPrism);
+library_leaf!(octahedron: 11, Octahedron);
+library_leaf!(pyramid: 12, Pyramid);
+library_leaf!(rhombus: 13, Rhombus);
+library_leaf!(rounded_cone: 14, RoundedCone);
+library_leaf!(solid_angle: 15, SolidAngle);
+library_leaf!(triangle: 16, Triangle, facet_conformance);
+library_leaf!(quad: 17, Quad, facet_conformance);
 
-/// Any leaf of the library, as programs hold it.
+/// Any leaf of the library that has an inside, as programs hold it.
 fn any_leaf(rng: &mut Pcg64) -> Specimen<Leaf> {
-    let kind = rng.random_range(0..KINDS.len());
+    let kind = rng.random_range(0..SOLIDS);
     of_kind(rng, kind, Some)
 }
 
@@ -61,5 +73,5 @@ fn gem(rng: &mut Pcg64) -> Specimen<Gem> {
     }
 }
 
-leaf_conformance!(octahedron: Octahedron::specimen);
+leaf_conformance!(octahedron_of_a_user: Octahedron::specimen);
 leaf_conformance!(gem: gem);

@@ -4,10 +4,10 @@
 use glam::{DVec3, Vec3};
 use gsdf_nostd::{Departure, Hit, Ray, Span, Start, Transform};
 use gsdf_tests::corpus;
-use gsdf_tests::poses::{MOST_LEAVES, Posed, Tree, random_affine, random_motion};
+use gsdf_tests::poses::{MOST_LEAVES, Posed, Tree, map_of, random_affine, random_motion};
 use gsdf_tests::reference::{Exact, ExactVec3};
 use gsdf_tests::sandwich::{ROUNDOFF, Trial};
-use gsdf_tests::shape::{KINDS, Shape, unit};
+use gsdf_tests::shape::{KINDS, SOLIDS, Shape, unit};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 use rayon::prelude::*;
@@ -75,11 +75,29 @@ fn slack(posed: &Posed, ray: &Ray, hit: &Hit) -> f64 {
 /// How far a hit is from the nearest tip of a cone, in the world. At a tip the normal says nothing about which directions lead outward.
 fn distance_to_tips(posed: &Posed, hit: &Hit) -> f64 {
     let tips = posed.shapes().iter().filter_map(|shape| match *shape {
-        Shape::Nappe { apex, .. } | Shape::Cone { apex, .. } => Some(apex),
+        Shape::Nappe { apex, .. } | Shape::Cone { apex, .. } | Shape::SolidAngle { apex, .. } => Some(apex),
         _ => None,
     });
     let from = |tip: Vec3| (to_world(posed.pose(), tip.as_dvec3(), DVec3::ZERO).0 - hit.point.as_dvec3()).length();
     tips.map(from).fold(f64::INFINITY, f64::min)
+}
+
+/// Whether a hit is within rounding of an edge. There the next face is as near as the one that was hit: going inward from the one, a ray may leave at once through the other, and which
+/// it does is for rounding to say.
+fn is_at_edge(posed: &Posed, hit: &Hit, slack: f64) -> bool {
+    let shape = posed.shapes()[hit.leaf as usize];
+    if matches!(shape, Shape::Triangle { .. } | Shape::Quad { .. }) {
+        return false;
+    }
+    let rows = posed.pose().to_local().map(Vec3::as_dvec3);
+    let shrunk = (glam::DMat3::from_cols_array_2d(&rows.map(|row| row.to_array())).inverse() * hit.normal.as_dvec3()).length();
+    let depth = 3.75 * slack / shrunk;
+    // A point below the face that was hit, or above it where the leaf was cut away, is not as deep in the leaf as below that face only if another face is nearer.
+    let is_deep = |way: f64| {
+        let below = &ExactVec3::from(hit.point) + &ExactVec3::from((hit.normal.as_dvec3() * (way * 4.0 * slack)).to_array());
+        shape.exact(-depth).contains(map_of(posed.pose()).apply(&below))
+    };
+    !is_deep(-1.0) && !is_deep(1.0)
 }
 
 /// What came of leaving hits one way.
@@ -90,7 +108,9 @@ struct Tally {
     naive: usize,
     /// Rays that leave the hit and do so.
     again: usize,
-    /// Rays that leave the hit and whose next crossing is not that of the exact solid.
+    /// Hits within rounding of an edge.
+    at_edges: usize,
+    /// Rays that leave another hit and whose next crossing is not that of the exact solid.
     wrong: usize,
     /// Rays that leave the hit and cross anything at all.
     met: usize,
@@ -102,6 +122,7 @@ impl Tally {
             hits: self.hits + other.hits,
             naive: self.naive + other.naive,
             again: self.again + other.again,
+            at_edges: self.at_edges + other.at_edges,
             wrong: self.wrong + other.wrong,
             met: self.met + other.met,
         }
@@ -139,6 +160,10 @@ fn leave(seed: u64, posed: &Posed, side: f64) -> Tally {
     let Some((ray, hit)) = random_hit(&mut rng, posed) else {
         return Tally::default();
     };
+    let slack = slack(posed, &ray, &hit);
+    if distance_to_tips(posed, &hit) < 64.0 * slack {
+        return Tally::default();
+    }
     // The normal leads out of the solid: against the ray where it enters, also on the inner side of what was cut away.
     let cosine = ray.direction().normalize().dot(hit.normal);
     assert!(
@@ -147,10 +172,6 @@ fn leave(seed: u64, posed: &Posed, side: f64) -> Tally {
         posed.shapes()
     );
     let away = leaving(&mut rng, hit.normal) * side as f32;
-    let slack = slack(posed, &ray, &hit);
-    if distance_to_tips(posed, &hit) < 64.0 * slack {
-        return Tally::default();
-    }
     let (direction, inside) = (away.as_dvec3(), side < 0.0);
     let is_again = |next: &Hit| next.leaf == hit.leaf && f64::from(next.t) * direction.length() < slack;
     let anew = Ray::new(hit.point, away).unwrap();
@@ -159,11 +180,13 @@ fn leave(seed: u64, posed: &Posed, side: f64) -> Tally {
 
     let departure = Departure::new(&hit, away).unwrap();
     let next = cast(posed, departure);
-    let wrong = !is_next(posed, &hit, departure, slack, side);
+    let at_edge = is_at_edge(posed, &hit, slack);
+    let wrong = !at_edge && !is_next(posed, &hit, departure, slack, side);
     Tally {
         hits: 1,
         naive: begins_wrong.into(),
         again: next.is_some_and(|next| is_again(&next)).into(),
+        at_edges: at_edge.into(),
         wrong: wrong.into(),
         met: next.is_some().into(),
     }
@@ -204,7 +227,7 @@ fn nothing_is_met_outward_of_a_convex_solid() {
 /// Inward a ray starts inside and comes out on the other side.
 #[test]
 fn inward_the_way_out_is_found() {
-    for (kind, name) in KINDS.iter().enumerate() {
+    for (kind, name) in KINDS.iter().enumerate().take(SOLIDS) {
         let tally = leave_all(name, -1.0, |rng| leaf_at_rest(rng, kind));
         assert!(tally.wrong * 100 <= tally.hits, "{name}: {tally:?}");
     }
@@ -235,36 +258,6 @@ fn departures_in_programs() {
     }
 }
 
-/// A point of an edge, a rim or a seam.
-fn special_point(rng: &mut Pcg64, shape: &Shape) -> DVec3 {
-    let around = |rng: &mut Pcg64, center: Vec3, radius: f32| {
-        center.as_dvec3() + gsdf_tests::shape::across(rng, shape.axis().as_dvec3()) * f64::from(radius)
-    };
-    let second = rng.random_range(0..2) == 0;
-    match *shape {
-        Shape::Cuboid { min, max } => {
-            let mut point = DVec3::from_array(core::array::from_fn(|axis| f64::from([min, max][rng.random_range(0..2)][axis])));
-            let along = rng.random_range(0..3);
-            point[along] = rng.random_range(f64::from(min[along])..=f64::from(max[along]));
-            point
-        }
-        Shape::CappedCylinder { bottom, top, radius, .. } => around(rng, if second { bottom } else { top }, radius),
-        Shape::CappedCone {
-            bottom,
-            top,
-            bottom_radius,
-            top_radius,
-            ..
-        } => {
-            let (center, radius) = if second { (bottom, bottom_radius) } else { (top, top_radius) };
-            around(rng, center, radius)
-        }
-        Shape::Cone { base, radius, .. } => around(rng, base, radius),
-        Shape::Capsule { a, b, radius } => around(rng, if second { a } else { b }, radius),
-        _ => shape.surface(rng).0,
-    }
-}
-
 /// From edges, rims and seams: outward nothing, in any pose.
 #[test]
 fn nothing_is_met_outward_of_edges() {
@@ -275,9 +268,13 @@ fn nothing_is_met_outward_of_edges() {
             let pose = [Transform::IDENTITY, random_motion(&mut rng), random_affine(&mut rng, 4.0)][rng.random_range(0..3)];
             let posed = Posed::new(shape.into(), pose);
             let toward = unit(&mut rng);
-            let from = special_point(&mut rng, &shape) - toward * rng.random_range(0.5..20.0);
+            let from = shape.edge_point(&mut rng) - toward * rng.random_range(0.5..20.0);
             let (origin, direction) = to_world(&pose, from, toward);
-            let hit = cast(&posed, Ray::new(origin.as_vec3(), direction.as_vec3()).unwrap())?;
+            let ray = Ray::new(origin.as_vec3(), direction.as_vec3()).unwrap();
+            let hit = cast(&posed, ray)?;
+            if distance_to_tips(&posed, &hit) < 64.0 * slack(&posed, &ray, &hit) {
+                return None;
+            }
             let away = leaving(&mut rng, hit.normal);
             let next = cast(&posed, Departure::new(&hit, away).unwrap());
             Some(next.map(|next| format!("{hit:?} towards {away} meets {next:?} of {:?} in {pose:?}", posed.shapes())))

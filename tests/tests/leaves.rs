@@ -3,7 +3,7 @@
 
 use gsdf_tests::corpus::{self, Class};
 use gsdf_tests::sandwich::{ROUNDOFF, Trial, computed_span};
-use gsdf_tests::shape::{KINDS, Shape, log_uniform};
+use gsdf_tests::shape::{KINDS, SOLIDS, Shape, log_uniform};
 use rand::SeedableRng;
 use rand_pcg::Pcg64;
 use rayon::prelude::*;
@@ -13,7 +13,8 @@ use std::collections::BTreeMap;
 /// ever seen is 4.
 const ALLOWED: f64 = 8.0;
 
-const RAYS: u64 = 10_000;
+/// Rays at each kind of leaf.
+const RAYS: u64 = 20_000;
 
 /// The rays at one kind of leaf: near and far, at small and large solids.
 fn trials(kind: usize) -> Vec<(Class, Trial)> {
@@ -32,14 +33,14 @@ fn share(count: usize) -> f64 {
     100.0 * count as f64 / RAYS as f64
 }
 
-/// A corpus that had stopped aiming would prove nothing: it must hit, start inside, graze, run parallel and start on
-/// surfaces often enough.
+/// A corpus that had stopped aiming would prove nothing: it must hit, start inside, aim at edges, graze, run
+/// parallel and start on surfaces often enough.
 #[test]
 fn the_corpus_keeps_its_quotas() {
     for (kind, name) in KINDS.iter().enumerate() {
         let trials = trials(kind);
         let spans: Vec<_> = trials.par_iter().map(|(_, trial)| trial.exact_span()).collect();
-        let ahead = |enter: f64, exit: f64| exit > 0.0 && enter < exit;
+        let ahead = |enter: f64, exit: f64| exit > 0.0 && enter <= exit;
         let hits = spans
             .iter()
             .flatten()
@@ -55,8 +56,8 @@ fn the_corpus_keeps_its_quotas() {
             *classes.entry(*class).or_insert(0) += 1;
         }
         assert!(share(hits) >= 30.0, "{name}: {} % hits", share(hits));
-        assert!(share(inside) >= 10.0, "{name}: {} % inside", share(inside));
-        for class in [Class::Tangent, Class::Parallel, Class::OnSurface] {
+        assert!(share(inside) >= 10.0 || kind >= SOLIDS, "{name}: {} % inside", share(inside));
+        for class in [Class::Edge, Class::Tangent, Class::Parallel, Class::OnSurface] {
             assert!(share(classes[&class]) >= 5.0, "{name}: {} % {class:?}", share(classes[&class]));
         }
     }

@@ -3,7 +3,10 @@
 //! A new kind of solid is one more line in the list below, and from then on in every bench, table and hash.
 
 use glam::{Vec3, vec3};
-use gsdf_nostd::{CappedCone, CappedCylinder, Capsule, Cone, Csg, Cuboid, Cylinder, HalfSpace, Leaf, Nappe, Node, Solid, Sphere, valid};
+use gsdf_nostd::{
+    CappedCone, CappedCylinder, Capsule, Cone, Csg, Cuboid, Cylinder, HalfSpace, HexagonalPrism, Leaf, Nappe, Node, Octahedron, Pyramid,
+    Quad, Rhombus, RoundedCone, Solid, SolidAngle, Sphere, Triangle, TriangularPrism, valid,
+};
 
 /// Something done with a solid of each kind.
 pub trait Visitor {
@@ -47,6 +50,16 @@ solids! {
     CONE: Cone, "cone", Cone::new(HIGH, LOW, Vec3::NEG_Y, 0.75);
     CAPPED_CONE: CappedCone, "capped cone", CappedCone::new(LOW, HIGH, Vec3::Y, 0.75, 0.25);
     CAPSULE: Capsule, "capsule", Capsule::new(LOW, HIGH, 0.5);
+    HEXAGONAL_PRISM: HexagonalPrism, "hexagonal prism", HexagonalPrism::new(LOW, HIGH.y, 0.75);
+    TRIANGULAR_PRISM: TriangularPrism, "triangular prism", TriangularPrism::new(LOW, HIGH.y, 0.5);
+    OCTAHEDRON: Octahedron, "octahedron", Octahedron::new(Vec3::ZERO, 1.0);
+    PYRAMID: Pyramid, "pyramid", Pyramid::new(LOW, 0.75, 1.5);
+    RHOMBUS: Rhombus, "rhombus", Rhombus::new(LOW, HIGH.y, 1.0, 0.625, 0.0);
+    ROUNDED_RHOMBUS: Rhombus, "rounded rhombus", Rhombus::new(LOW, HIGH.y, 0.75, 0.5, 0.25);
+    ROUNDED_CONE: RoundedCone, "rounded cone", RoundedCone::new(LOW, HIGH, 0.75, 0.25);
+    SOLID_ANGLE: SolidAngle, "solid angle", SolidAngle::new(LOW, Vec3::Y, 1.5, 0.75, 1.0);
+    TRIANGLE: Triangle, "triangle", Triangle::new(vec3(-1.0, -0.5, 0.25), vec3(1.0, -0.5, -0.25), vec3(0.0, 1.0, 0.0));
+    QUAD: Quad, "quad", Quad::new(vec3(-1.0, -0.5, 0.25), vec3(1.0, -0.5, 0.25), vec3(0.75, 0.75, -0.25), vec3(-0.75, 0.75, -0.25));
 }
 
 #[cfg(test)]

@@ -35,6 +35,15 @@ impl<const N: usize, L> Csg<N, L> {
         }
     }
 
+    /// The program of nodes that are known to make one: leaves in the world and binary operators on them.
+    pub(crate) const fn from_binary(nodes: [Node<L>; N]) -> Self {
+        let checked = Checked {
+            leaves: N.div_ceil(2),
+            last_frame: 0,
+        };
+        Self { nodes, checked }
+    }
+
     /// The nodes, in postfix order.
     #[must_use]
     pub const fn nodes(&self) -> &[Node<L>] {

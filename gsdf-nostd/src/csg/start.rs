@@ -52,7 +52,8 @@ impl Start for Ray {
 /// near as rounding can tell are treated alike.
 ///
 /// Within rounding of a cone's tip no normal tells outward from inward, and a ray that leaves may meet the tip again at
-/// a distance of rounding errors.
+/// a distance of rounding errors. Within rounding of an edge a point lies on the faces on both sides of it, so that a
+/// ray inward from the one may at once be outside through the other.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Departure {
     ray: Ray,

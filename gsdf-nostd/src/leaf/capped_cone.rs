@@ -14,6 +14,8 @@ use glam::Vec3;
 
 /// The cone between two discs of different, or equal, radii.
 ///
+#[cfg_attr(doc, doc = include_str!("../../pictures/capped_cone.md"))]
+///
 /// It stores both caps as positions, so that a cap shared with a neighbour is one and the same plane, to the bit.
 ///
 /// - Standard: the nearer of the caps' and the side's segments in the half-plane through the axis, exact. Source: I.

@@ -14,6 +14,8 @@ use glam::Vec3;
 /// The cylinder between two caps: the points nearer to an axis than `radius`, between the planes through `bottom` and
 /// `top` across it.
 ///
+#[cfg_attr(doc, doc = include_str!("../../pictures/capped_cylinder.md"))]
+///
 /// It stores both caps as positions, so that a cap shared with a neighbour is one and the same plane, to the bit.
 ///
 /// - Standard: with `x = |(p - c) x a| - r` and `y` the height over the nearer cap, `|max((x, y), 0)| + min(max(x,

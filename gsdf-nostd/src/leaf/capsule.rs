@@ -14,6 +14,8 @@ use glam::Vec3;
 
 /// The points nearer to a segment than `radius`: the paper's spherical capped cylinder.
 ///
+#[cfg_attr(doc, doc = include_str!("../../pictures/capsule.md"))]
+///
 /// - Standard: the distance from the nearest point of the segment, less the radius, exact. Source: I. Quilez,
 ///   Distance functions.
 /// - Along a ray: the union of two whole spheres and the cylinder between them is convex, so the least entry and the

@@ -13,6 +13,8 @@ use glam::Vec3;
 
 /// The cone between its tip and a base: the part of a nappe before the plane through `base` across its axis.
 ///
+#[cfg_attr(doc, doc = include_str!("../../pictures/cone.md"))]
+///
 /// It stores the base as a position, so that a base shared with a neighbour is one and the same plane, to the bit.
 ///
 /// - Standard: the nearer of the base's and the side's segment in the half-plane through the axis, exact. Source: I.

@@ -13,6 +13,8 @@ use glam::Vec3;
 /// The box of the points between two corners, with faces parallel to the coordinate planes of its frame; turn it with
 /// a [`Transform`](crate::Transform).
 ///
+#[cfg_attr(doc, doc = include_str!("../../pictures/cuboid.md"))]
+///
 /// It stores the positions of its faces rather than a centre and a size, so that a face shared with a neighbour is
 /// one and the same number.
 ///
@@ -72,7 +74,8 @@ impl Cuboid {
     }
 }
 
-const fn extent(parameter: &'static str, value: f32) -> Result<(), Invalid> {
+/// Refuses the distance from a lower face to an upper one unless it is at least [`MIN_LENGTH`].
+pub(super) const fn extent(parameter: &'static str, value: f32) -> Result<(), Invalid> {
     if value <= 0.0 {
         Err(Invalid::new(parameter, value, Fault::Reversed))
     } else if value < MIN_LENGTH {

@@ -12,6 +12,8 @@ use glam::Vec3;
 
 /// The infinite cylinder of the points nearer to an axis than `radius`.
 ///
+#[cfg_attr(doc, doc = include_str!("../../pictures/cylinder.md"))]
+///
 /// - Standard: `|(p - c) x a| - r`, exact. (The paper's takes the perpendicular of the ray instead of the point.)
 /// - Along a ray, with `w = p - c`, `W = w x a` and `V = v x a`: `A = V.V`, `B = W.V`, `C = W.W - r² a.a` and, with
 ///   `L = W - (B/A) V`, `D = A (r² a.a - L.L)`, which is the sphere's discriminant in the plane across the axis.
@@ -89,6 +91,18 @@ impl<T: Real> SeenSide<T> {
             r2,
             c: w.norm_squared() - r2,
         }
+    }
+
+    /// The side whose offset was taken, and perhaps settled, before.
+    #[inline(always)]
+    pub(super) fn with_offset(self, c: T) -> Self {
+        Self { c, ..self }
+    }
+
+    /// `W.W - r² a.a`.
+    #[inline(always)]
+    pub(super) fn offset(&self) -> T {
+        self.c
     }
 
     #[inline(always)]

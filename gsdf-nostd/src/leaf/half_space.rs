@@ -13,6 +13,8 @@ use glam::Vec3;
 /// The half-space of the points `x` with `(x - point) . normal < 0`: the paper's plane, with the side it leaves open
 /// decided.
 ///
+#[cfg_attr(doc, doc = include_str!("../../pictures/half_space.md"))]
+///
 /// - Standard: `(p - s) . n`, exact.
 /// - Along a ray: the root is `t = -(p - s) . n / (v . n)`. (The paper prints it without the minus.) A ray parallel
 ///   to the plane is inside all the way or never, a ray in the plane never.

@@ -12,6 +12,8 @@ use glam::Vec3;
 
 /// One nappe of an infinite cone: the points whose direction from `apex` makes less than the half-angle with `axis`.
 ///
+#[cfg_attr(doc, doc = include_str!("../../pictures/nappe.md"))]
+///
 /// - Standard: with `q = (|y|, z)` the point in the half-plane through the axis and `g` the unit generatrix, `|q - g
 ///   max(q.g, 0)|` with the sign of the side, exact. (The paper's lacks the sign, and measures from the world's
 ///   origin.)
@@ -94,7 +96,7 @@ impl Nappe {
     }
 
     #[inline(always)]
-    fn profile<T: Real>(&self, like: T) -> Profile<T> {
+    pub(super) fn profile<T: Real>(&self, like: T) -> Profile<T> {
         Profile {
             axis: V3::splat(like, self.axis),
             r: like.splat_like(0.0),

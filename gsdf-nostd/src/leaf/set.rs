@@ -1,6 +1,9 @@
 //! Leaf types: the choice of solids a program is made of.
 
-use super::{CappedCone, CappedCylinder, Capsule, Cone, Cuboid, Cylinder, HalfSpace, Nappe, Sphere};
+use super::{
+    CappedCone, CappedCylinder, Capsule, Cone, Cuboid, Cylinder, HalfSpace, HexagonalPrism, Nappe, Octahedron, Pyramid, Quad, Rhombus,
+    RoundedCone, SolidAngle, Sphere, Triangle, TriangularPrism,
+};
 
 /// Makes a leaf type of just the solids a program uses.
 ///
@@ -132,5 +135,24 @@ leaf_set! {
         Cone(Cone),
         CappedCone(CappedCone),
         Capsule(Capsule),
+        HexagonalPrism(HexagonalPrism),
+        TriangularPrism(TriangularPrism),
+        Octahedron(Octahedron),
+        Pyramid(Pyramid),
+        Rhombus(Rhombus),
+        RoundedCone(RoundedCone),
+        SolidAngle(SolidAngle),
+        Triangle(Triangle),
+        Quad(Quad),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Leaf;
+
+    #[test]
+    fn no_solid_makes_the_others_pay_for_its_size() {
+        assert_eq!(size_of::<Leaf>(), 52);
     }
 }

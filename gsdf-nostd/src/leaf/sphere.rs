@@ -11,6 +11,8 @@ use glam::Vec3;
 
 /// The ball of the points nearer to `center` than `radius`.
 ///
+#[cfg_attr(doc, doc = include_str!("../../pictures/sphere.md"))]
+///
 /// - Standard: `|p - c| - r`, exact.
 /// - Along a ray, with `w = p - c`: `A = v.v`, `B = w.v`, `C = w.w - r²`, and the discriminant from the part of `w`
 ///   perpendicular to the ray, `l = w - (B/A) v`, as `D = A (r² - l.l)`: the error of `B/A` lies along `v`, hence

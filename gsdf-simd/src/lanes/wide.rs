@@ -171,6 +171,16 @@ impl Real for F32x8 {
         Self((self.0 & f32x8::splat(f32::from_bits(0x7fff_ffff))) | (sign.0 & bit))
     }
     #[inline(always)]
+    fn next_up(self) -> Self {
+        // The bits of positive numbers ascend with them, those of negative ones descend; adding zero leaves no -0.
+        let step = |lane: f32| {
+            let bits = lane.to_bits().cast_signed();
+            f32::from_bits(bits.wrapping_add(1 | bits >> 31).cast_unsigned())
+        };
+        let next = f32x8::new((self.0 + f32x8::splat(0.0)).to_array().map(step));
+        Self::select(self.lt(Self::INFINITY), Self(next), self)
+    }
+    #[inline(always)]
     fn lt(self, other: Self) -> Mask8 {
         Mask8(self.0.simd_lt(other.0))
     }

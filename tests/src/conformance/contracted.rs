@@ -97,6 +97,9 @@ impl Real for Contracted {
     fn copysign(self, sign: Self) -> Self {
         self.value.copysign(sign.value).into()
     }
+    fn next_up(self) -> Self {
+        self.value.next_up().into()
+    }
     fn lt(self, other: Self) -> bool {
         self.value < other.value
     }

@@ -1,5 +1,6 @@
 //! What every arithmetic and every leaf owes, as one suite each, generic over the type:
-//! [`arithmetic_conformance!`](crate::arithmetic_conformance) and [`leaf_conformance!`](crate::leaf_conformance) make a
+//! [`arithmetic_conformance!`](crate::arithmetic_conformance), [`leaf_conformance!`](crate::leaf_conformance) and
+//! [`facet_conformance!`](crate::facet_conformance) make a
 //! module of tests from it, one test per duty, so that a failure names type and duty.
 //!
 //! The suites ask through the public interface alone: a lane type or a leaf of one's own is held to the same duties as
@@ -67,6 +68,30 @@ macro_rules! leaf_conformance {
                 the_stages_are_one_formula
                 lanes_are_the_scalar_bits
                 grounded_origins_have_the_root_zero
+            }
+        }
+    };
+}
+
+/// The duties of a leaf that is a piece of surface and has no inside: all but those that are about the inside.
+#[macro_export]
+macro_rules! facet_conformance {
+    ($name:ident: $generator:expr) => {
+        mod $name {
+            #[allow(unused_imports, reason = "where the generator is named in full")]
+            use super::*;
+
+            $crate::conformance_tests! { leaf $generator =>
+                spans_are_half_open_and_never_nan
+                the_solid_is_convex
+                both_distances_agree_on_what_is_inside
+                distances_never_exceed_the_way_to_the_surface
+                distances_change_no_faster_than_the_point
+                normals_are_unit_and_outward
+                faces_belong_to_places_and_not_to_rays
+                bounds_hold_the_solid
+                the_stages_are_one_formula
+                lanes_are_the_scalar_bits
             }
         }
     };

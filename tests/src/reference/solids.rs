@@ -7,6 +7,9 @@ use super::number::Exact;
 use super::vector::ExactVec3;
 use super::{Expr, Inequality};
 
+/// How many significant bits of an irrational number are kept.
+const BITS: usize = 400;
+
 impl Expr {
     /// The points behind a plane, seen from where its normal points to.
     pub fn half_space(point: impl Into<ExactVec3>, normal: impl Into<ExactVec3>) -> Self {
@@ -102,6 +105,72 @@ impl Expr {
         let ends = [&a, &b].map(|end| Self::sphere(end.clone(), radius.clone()));
         let middle = Self::capped_cylinder(a, b, axis, radius);
         Self::Or(ends.into_iter().chain([middle]).collect())
+    }
+
+    /// The convex hull of two balls, neither of which holds the other: both, and the cone that touches them between
+    /// the circles where it does.
+    pub fn rounded_cone(a: impl Into<ExactVec3>, b: impl Into<ExactVec3>, a_radius: Exact, b_radius: Exact) -> Self {
+        let (a, b) = (a.into(), b.into());
+        let axis = &b - &a;
+        let apart_squared = axis.length_squared();
+        // The normals of the cone lean by the angle whose sine is the difference of the radii over the distance.
+        let fall = &a_radius - &b_radius;
+        let run = (&apart_squared - &fall.square()).sqrt(BITS);
+        let circle = |center: &ExactVec3, radius: &Exact| center + &axis.times(&(radius * &fall).quotient(&apart_squared, BITS));
+        let side = Self::capped_cone(
+            circle(&a, &a_radius),
+            circle(&b, &b_radius),
+            axis.clone(),
+            (&a_radius * &run).quotient(&apart_squared.sqrt(BITS), BITS),
+            -fall,
+            run,
+        );
+        Self::Or(vec![Self::sphere(a.clone(), a_radius), Self::sphere(b.clone(), b_radius), side])
+    }
+
+    /// The points nearer than the rounding, which is positive, to a rhombus with these halves of its diagonals along x
+    /// and z, between heights: the rhombus, a band along each of its sides, and a cylinder about each of its corners.
+    pub fn rounded_rhombus(bottom: ExactVec3, top: ExactVec3, half_x: f32, half_z: f32, rounding: Exact) -> Self {
+        let up = ExactVec3::from([0.0_f32, 1.0, 0.0]);
+        let corners = [[half_x, 0.0, 0.0], [0.0, 0.0, half_z], [-half_x, 0.0, 0.0], [0.0, 0.0, -half_z]];
+        let corners = corners.map(|corner| &bottom + &ExactVec3::from(corner));
+        let sides = [0, 1, 2, 3].map(|corner| (&corners[corner], &corners[(corner + 1) % 4]));
+        let outward = |(from, to): (&ExactVec3, &ExactVec3)| up.cross(&(to - from));
+        let rhombus = Self::And(sides.map(|side| Self::half_space(side.0.clone(), outward(side))).into());
+        let bands = sides.map(|side| {
+            let (normal, along) = (outward(side), side.1 - side.0);
+            let reach = normal.times(&rounding.quotient(&normal.length_squared().sqrt(BITS), BITS));
+            Self::And(vec![
+                capped_above(&(side.0 + &reach), &normal),
+                capped_below(&(side.0 - &reach), &normal),
+                capped_below(side.0, &along),
+                capped_above(side.1, &along),
+            ])
+        });
+        let edges = corners
+            .each_ref()
+            .map(|corner| Self::cylinder(corner.clone(), up.clone(), rounding.clone()));
+        let section = Self::Or(bands.into_iter().chain(edges).chain([rhombus]).collect());
+        Self::And(vec![section, capped_below(&bottom, &up), capped_above(&top, &up)])
+    }
+
+    /// The twelve beams along the edges of a box, of a square section inward.
+    pub fn box_frame(min: ExactVec3, max: ExactVec3, thickness: &Exact) -> Self {
+        let axes = [[1.0_f32, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].map(ExactVec3::from);
+        // At the lower face, or at the upper one, of the axis.
+        let wall = |axis: &ExactVec3, upper: bool| {
+            if upper {
+                capped_above(&max, axis).and(capped_below(&(&max - &axis.times(thickness)), axis))
+            } else {
+                capped_below(&min, axis).and(capped_above(&(&min + &axis.times(thickness)), axis))
+            }
+        };
+        let beam = |number: usize| {
+            let [along, first, second] = [0, 1, 2].map(|turn| &axes[(number / 4 + turn) % 3]);
+            let ends = capped_below(&min, along).and(capped_above(&max, along));
+            Self::And(vec![ends, wall(first, number & 1 != 0), wall(second, number & 2 != 0)])
+        };
+        Self::Or((0..12).map(beam).collect())
     }
 }
 

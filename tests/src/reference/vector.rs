@@ -26,6 +26,20 @@ impl ExactVec3 {
         x.square() + y.square() + z.square()
     }
 
+    /// The vector across both, exact.
+    #[must_use]
+    pub fn cross(&self, other: &Self) -> Self {
+        let [x, y, z] = &self.0;
+        let [u, v, w] = &other.0;
+        Self([y * w - z * v, z * u - x * w, x * v - y * u])
+    }
+
+    /// The coordinates, each rounded to the nearest `f64`.
+    #[must_use]
+    pub fn to_f64(&self) -> [f64; 3] {
+        self.0.each_ref().map(Exact::to_f64)
+    }
+
     /// The vector times a number, exact.
     #[must_use]
     pub fn times(&self, factor: &Exact) -> Self {

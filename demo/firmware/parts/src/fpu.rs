@@ -96,6 +96,10 @@ impl Real for Fpu {
         Self(Real::copysign(self.0, sign.0))
     }
     #[inline(always)]
+    fn next_up(self) -> Self {
+        Self(Real::next_up(self.0))
+    }
+    #[inline(always)]
     fn lt(self, other: Self) -> bool {
         Real::lt(self.0, other.0)
     }
@@ -197,7 +201,7 @@ mod tests {
     #[test]
     fn every_operation_is_that_of_f32() {
         type Pair<T> = (fn(T, T) -> T, &'static str);
-        fn operations<T: Real<Mask = bool>>() -> [Pair<T>; 14] {
+        fn operations<T: Real<Mask = bool>>() -> [Pair<T>; 15] {
             [
                 (|a, b| a + b, "sum"),
                 (|a, b| a - b, "difference"),
@@ -207,6 +211,7 @@ mod tests {
                 (|a, _| a.sqrt(), "root"),
                 (|a, _| a.abs(), "magnitude"),
                 (|a, b| a.copysign(b), "sign"),
+                (|a, _| a.next_up(), "next"),
                 (|a, b| a.min(b), "minimum"),
                 (|a, b| a.max(b), "maximum"),
                 (|a, b| T::select(a.lt(b), a, b.splat_like(2.0)), "less"),
