@@ -1,6 +1,5 @@
 //! The standard distance against the nearest point of the surface, searched for on the surface; and that it changes
 //! no faster than the point.
-#![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 use glam::{DVec3, Vec3};
 use gsdf_nostd::{Leaf, Solid};

@@ -1,5 +1,4 @@
 //! The solids that are programs, along rays and at points, against exact arithmetic and their definitions.
-#![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 use glam::{DVec3, Vec3};
 use gsdf_nostd::{BoxFrame, Crossing, DoubleCone, Ray, Span, WideSolidAngle};

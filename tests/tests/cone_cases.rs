@@ -1,5 +1,4 @@
 //! Rays that run along the sides of cones exactly, in numbers that are whole: where one root of the quadratic is infinitely far.
-#![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 use glam::{Vec3, vec3};
 use gsdf_nostd::{Nappe, Solid};

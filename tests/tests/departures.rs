@@ -1,5 +1,4 @@
 //! Rays that leave a hit: none meets the surface it leaves at a distance of rounding errors, and none misses what comes next.
-#![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 use glam::{DVec3, Vec3};
 use gsdf_nostd::{Departure, Hit, Ray, Span, Start, Transform};

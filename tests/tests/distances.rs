@@ -1,5 +1,4 @@
 //! Both distances of every leaf against exact arithmetic: the standard one at points, the generalized one along rays.
-#![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 use glam::{DVec3, Vec3};
 use gsdf_nostd::{Leaf, Solid, V3};

@@ -1,5 +1,4 @@
 //! Surfaces made of facets: what goes through one is seen to do so, also at the edges and corners of its triangles.
-#![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 use glam::{DVec3, Vec3, vec3};
 use gsdf_nostd::{Crossing, Node, Program, Quad, Ray, Solid, Span, Triangle};

@@ -1,5 +1,4 @@
 //! Whole images against one scalar query per pixel, bit for bit: every size, layout, camera and number of threads.
-#![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 use core::slice::ChunksMut;
 use glam::{Mat3, Vec3, vec3};

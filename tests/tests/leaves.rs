@@ -1,5 +1,4 @@
 //! Every leaf, along rays of every kind, against exact arithmetic.
-#![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 use gsdf_tests::corpus::{self, Class};
 use gsdf_tests::sandwich::{ROUNDOFF, Trial, computed_span};

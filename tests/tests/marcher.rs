@@ -1,5 +1,4 @@
 //! Sphere tracing over the standard distance: it stops at the surface, and never beyond it.
-#![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 use gsdf_nostd::{Field, Leaf, Ray, Real, Solid, SphereTracer, V3};
 use gsdf_tests::corpus;

@@ -1,5 +1,4 @@
 //! What is inside, by both distances, against the definition of each solid.
-#![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 use gsdf_nostd::Solid;
 use gsdf_tests::sandwich::ROUNDOFF;

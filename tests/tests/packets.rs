@@ -1,6 +1,5 @@
 //! Packets of eight against eight scalar queries, bit for bit: on random programs, the reference scenes and a user's
 //! own leaf type, with lanes that hit, miss, start inside, have a range, or hold no ray at all, side by side.
-#![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 use core::fmt::Debug;
 use glam::{Vec3, vec3};

@@ -1,10 +1,9 @@
 //! The references themselves: what is exact, what is defined and what is on the surface describe one solid.
-#![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 use glam::DVec3;
 use gsdf_tests::shape::composed::{COMPOSED, Composed};
 use gsdf_tests::shape::{KINDS, Shape, log_uniform, unit};
-use rand::{Rng, RngExt, SeedableRng};
+use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64;
 
 const SOLIDS: u64 = 60;

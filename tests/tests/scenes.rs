@@ -1,5 +1,4 @@
 //! The reference scenes at full size: single against double precision, pixel by pixel.
-#![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 use gsdf_demo::scenes::{self, Scene};
 use gsdf_nostd::{Lane, March, Program, Raster, Span};

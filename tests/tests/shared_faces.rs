@@ -1,5 +1,4 @@
 //! Solids that share a face: no skin is left of it, in any pose, and elsewhere nothing differs from exact arithmetic either.
-#![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 use glam::{DVec3, Vec3};
 use gsdf_nostd::{CappedCylinder, Crossing, HalfSpace, Leaf, Node, Program, Ray, Span, Transform};

@@ -1,8 +1,8 @@
 //! What the shapes are made of.
 
 use glam::{Vec3, vec3};
-use gsdf_demo::shapes::{BOX_FRAME, DOUBLE_CONE, WIDE_SOLID_ANGLE};
 use gsdf_nostd::{Cylinder, HalfSpace, Invalid, Leaf, Nappe, Node, Sphere};
+use gsdf_workload::shapes::{BOX_FRAME, DOUBLE_CONE, WIDE_SOLID_ANGLE};
 use gsdf_workload::solids::{
     CAPPED_CONE, CAPPED_CYLINDER, CAPSULE, CONE, CUBOID, HEXAGONAL_PRISM, OCTAHEDRON, PYRAMID, RHOMBUS, ROUNDED_CONE, SOLID_ANGLE,
     TRIANGULAR_PRISM,

@@ -4,8 +4,9 @@ use crate::palette;
 use crate::scenes::{Look, Scene};
 use anyhow::Result;
 use glam::{Vec3, vec3};
-use gsdf_nostd::{Bounds, BoxFrame, Camera, Csg, DoubleCone, HalfSpace, Leaf, Node, Solid, WideSolidAngle, valid};
-use gsdf_workload::solids::{ALONE, NAMES, Visitor, visit};
+use gsdf_nostd::{Bounds, Camera, HalfSpace, Leaf, Node, Program, Solid};
+use gsdf_workload::shapes;
+use gsdf_workload::solids::{self, ALONE, Visitor, visit};
 
 /// A shape to be shown.
 #[derive(Clone, Debug)]
@@ -18,13 +19,6 @@ pub struct Exhibit {
     pub bounds: Option<Bounds>,
 }
 
-/// A double cone.
-pub const DOUBLE_CONE: DoubleCone = valid!(DoubleCone::new(Vec3::ZERO, Vec3::Y, 0.5, 1.0));
-/// A box frame.
-pub const BOX_FRAME: BoxFrame = valid!(BoxFrame::new(vec3(-0.75, -0.75, -0.75), vec3(0.75, 0.75, 0.75), 0.1875));
-/// A solid angle beyond 90 degrees. What it lacks opens towards the camera.
-pub const WIDE_SOLID_ANGLE: WideSolidAngle = valid!(WideSolidAngle::new(Vec3::ZERO, vec3(0.48, -0.6, 0.64), 1.0, 1.0, -0.75));
-
 /// From where, seen from its middle, a shape is looked at.
 const FROM: Vec3 = vec3(-2.3, 2.1, -4.4);
 /// The same for a ground: flat enough to see where it ends.
@@ -32,23 +26,20 @@ const FROM_LOW: Vec3 = vec3(-2.3, 0.7, -4.4);
 /// The tangent of the angle from the middle of the picture, while it is square, to its upper edge.
 const TANGENT: f32 = 0.34;
 
-/// A solid of each kind, by the list of the workload, and the shapes that are programs.
+/// Every solid of the workload: those of one leaf, then those that are programs.
 #[must_use]
 pub fn all() -> Vec<Exhibit> {
     let mut boxes = Boxes(Vec::new());
     visit(&mut boxes);
-    let leaves = NAMES.iter().zip(&ALONE).zip(boxes.0).map(|((name, program), bounds)| Exhibit {
+    let exhibit = |name: &&'static str, program: Program<'static>, bounds: Option<Bounds>| Exhibit {
         name,
         nodes: program.nodes().to_vec(),
         bounds,
-    });
-    leaves
-        .chain([
-            composed("double cone", &DOUBLE_CONE.program(), DOUBLE_CONE.bounds()),
-            composed("box frame", &BOX_FRAME.program(), BOX_FRAME.bounds()),
-            composed("wide solid angle", &WIDE_SOLID_ANGLE.program(), WIDE_SOLID_ANGLE.bounds()),
-        ])
-        .collect()
+    };
+    let leaves = (solids::NAMES.iter().zip(&ALONE).zip(boxes.0)).map(|((name, program), bounds)| exhibit(name, program.program(), bounds));
+    let composed = (shapes::NAMES.iter().zip(&shapes::PROGRAMS).zip(shapes::bounds()))
+        .map(|((name, program), bounds)| exhibit(name, *program, bounds));
+    leaves.chain(composed).collect()
 }
 
 struct Boxes(Vec<Option<Bounds>>);
@@ -56,14 +47,6 @@ struct Boxes(Vec<Option<Bounds>>);
 impl Visitor for Boxes {
     fn leaf<S: Solid>(&mut self, _: &'static str, solid: S) {
         self.0.push(solid.bounds());
-    }
-}
-
-fn composed<const N: usize>(name: &'static str, program: &Csg<N>, bounds: Option<Bounds>) -> Exhibit {
-    Exhibit {
-        name,
-        nodes: program.nodes().to_vec(),
-        bounds,
     }
 }
 

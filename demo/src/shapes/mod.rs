@@ -3,7 +3,7 @@
 mod caption;
 mod exhibit;
 
-pub use exhibit::{BOX_FRAME, DOUBLE_CONE, Exhibit, WIDE_SOLID_ANGLE, all};
+pub use exhibit::{Exhibit, all};
 
 use crate::output::{prepare, say, write_png};
 use crate::render::render;

@@ -21,4 +21,5 @@ pub mod corpus;
 pub mod costs;
 pub mod digest;
 pub mod scenes;
+pub mod shapes;
 pub mod solids;

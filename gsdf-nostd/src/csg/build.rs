@@ -5,6 +5,8 @@
 /// An expression is one of
 /// - `Solid::constructor(arguments)`: a leaf; any fallible `const` constructor of a type that is a variant, of the
 ///   same name, of the leaf type;
+/// - `BoxFrame::new(arguments)`, or a constructor of the other solids that are programs of the default leaf type
+///   ([`DoubleCone`](crate::DoubleCone), [`WideSolidAngle`](crate::WideSolidAngle)): all of its nodes;
 /// - `NAME`: another `const` program with the same leaf type;
 /// - `union(a, b, ...)`, `intersection(a, b, ...)`: of two or more;
 /// - `difference(a, b, ...)`: the first without all the others;
@@ -62,6 +64,15 @@ macro_rules! csg {
     (@flat $item:tt $leaf:tt $done:tt (posed($frame:tt, $($operand:tt)+)) $($rest:tt)*) => {
         $crate::csg! { @flat $item $leaf $done ($($operand)+) {posed $frame} $($rest)* }
     };
+    (@flat $item:tt $leaf:tt [$($done:tt)*] (BoxFrame :: $constructor:ident $arguments:tt) $($rest:tt)*) => {
+        $crate::csg! { @flat $item $leaf [$($done)* {shape BoxFrame $constructor $arguments}] $($rest)* }
+    };
+    (@flat $item:tt $leaf:tt [$($done:tt)*] (DoubleCone :: $constructor:ident $arguments:tt) $($rest:tt)*) => {
+        $crate::csg! { @flat $item $leaf [$($done)* {shape DoubleCone $constructor $arguments}] $($rest)* }
+    };
+    (@flat $item:tt $leaf:tt [$($done:tt)*] (WideSolidAngle :: $constructor:ident $arguments:tt) $($rest:tt)*) => {
+        $crate::csg! { @flat $item $leaf [$($done)* {shape WideSolidAngle $constructor $arguments}] $($rest)* }
+    };
     (@flat $item:tt $leaf:tt [$($done:tt)*] ($solid:ident :: $constructor:ident $arguments:tt) $($rest:tt)*) => {
         $crate::csg! { @flat $item $leaf [$($done)* {leaf $solid $constructor $arguments}] $($rest)* }
     };
@@ -94,6 +105,7 @@ macro_rules! csg {
 
     // @count: the nodes of one step.
     (@count $leaf:path, {program $program:path}) => { $program.nodes().len() };
+    (@count $leaf:path, {shape $shape:ident $constructor:ident $arguments:tt}) => { $shape::NODES };
     (@count $leaf:path, {posed $frame:tt}) => { 0 };
     (@count $leaf:path, {$($step:tt)+}) => { 1 };
 
@@ -107,6 +119,9 @@ macro_rules! csg {
     };
     (@chain $leaf:path, $draft:expr, {program $program:path} $($rest:tt)*) => {
         $crate::csg!(@chain $leaf, $draft.program($program.nodes()), $($rest)*)
+    };
+    (@chain $leaf:path, $draft:expr, {shape $shape:ident $constructor:ident $arguments:tt} $($rest:tt)*) => {
+        $crate::csg!(@chain $leaf, $draft.program($crate::valid!($shape::$constructor $arguments).program().nodes()), $($rest)*)
     };
     (@chain $leaf:path, $draft:expr, {leaf $solid:ident $constructor:ident $arguments:tt} $($rest:tt)*) => {
         $crate::csg!(@chain $leaf, $draft.leaf(<$leaf>::$solid($crate::valid!($solid::$constructor $arguments))), $($rest)*)

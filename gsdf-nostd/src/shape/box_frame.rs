@@ -1,9 +1,9 @@
 //! The box frame.
 
+use super::readings;
 use crate::csg::{Csg, Node};
 use crate::invalid::{Fault, Invalid, length};
 use crate::leaf::{Bounds, Cuboid, Leaf};
-use crate::ray::is_in_range;
 use crate::real::Real;
 use crate::vec3::V3;
 use glam::Vec3;
@@ -19,6 +19,20 @@ use glam::Vec3;
 /// - Along a ray: that of the [program](Self::program): the tunnels end in the box's own faces, to the bit, and leave
 ///   no skin.
 /// - Accuracy: that of [`Cuboid`]. Cost: four of them and three differences.
+///
+/// ```
+/// use gsdf_nostd::{BoxFrame, Sphere, csg};
+/// use glam::{Vec3, vec3};
+///
+/// csg! {
+///     /// A ball in a cage.
+///     const CAGED = union(Sphere::new(Vec3::ZERO, 0.75), posed(1, BoxFrame::new(Vec3::NEG_ONE, Vec3::ONE, 0.25)))
+/// }
+///
+/// assert_eq!(CAGED.leaves(), 5);
+/// assert_eq!(CAGED.gsdf(vec3(0.0, 0.0, 5.0), Vec3::NEG_Z), 4.25); // through a window
+/// assert_eq!(CAGED.gsdf(vec3(0.0, 0.9, 5.0), Vec3::NEG_Z), 4.0); // onto a bar
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BoxFrame {
     hull: Cuboid,
@@ -26,6 +40,8 @@ pub struct BoxFrame {
     tunnels: [Cuboid; 3],
     thickness: f32,
 }
+
+readings!(BoxFrame of 7 nodes);
 
 impl BoxFrame {
     /// The frame of the box from corner `min` to corner `max` whose bars are `thickness` wide.
@@ -84,7 +100,7 @@ impl BoxFrame {
     ///
     /// Its own [`sdf`](Csg::sdf) has the sign of [`sdf`](Self::sdf), and is a lower bound of its magnitude.
     #[must_use]
-    pub const fn program(&self) -> Csg<7> {
+    pub const fn program(&self) -> Csg<{ Self::NODES }> {
         let [x, y, z] = self.tunnels;
         Csg::from_binary([
             Node::leaf(Leaf::Cuboid(self.hull)),
@@ -126,18 +142,6 @@ impl BoxFrame {
             .min(to_tunnel(solid.x, solid.y));
         let to_faces = -outside.x.max(outside.y).max(outside.z);
         T::select(inside, -to_faces.min(to_tunnels), to_bars)
-    }
-
-    /// The standard signed distance function `φ(p)`: exact, negative inside; NaN unless `p` is finite and within ±2^30.
-    #[must_use]
-    pub fn sdf(&self, p: Vec3) -> f32 {
-        if is_in_range(p) { self.distance(V3::from(p)) } else { f32::NAN }
-    }
-
-    /// The generalized signed distance function `φ_G(v, p)`, as [`Csg::gsdf`] has it.
-    #[must_use]
-    pub fn gsdf(&self, p: Vec3, v: Vec3) -> f32 {
-        self.program().gsdf(p, v)
     }
 
     /// The box.

@@ -1,9 +1,9 @@
 //! The infinite double cone.
 
+use super::readings;
 use crate::csg::{Csg, Node};
 use crate::invalid::{Invalid, length, point, unit};
 use crate::leaf::{Bounds, Leaf, Nappe, Solid};
-use crate::ray::is_in_range;
 use crate::real::Real;
 use crate::vec3::V3;
 use glam::Vec3;
@@ -21,6 +21,8 @@ use glam::Vec3;
 pub struct DoubleCone {
     nappes: [Nappe; 2],
 }
+
+readings!(DoubleCone of 3 nodes);
 
 impl DoubleCone {
     /// The double cone around `apex` along the unit vector `axis` that has `radius` at the distance `height` from the
@@ -69,7 +71,7 @@ impl DoubleCone {
 
     /// The double cone as a program: leaf 0 is the nappe along the axis, 1 the one against it.
     #[must_use]
-    pub const fn program(&self) -> Csg<3> {
+    pub const fn program(&self) -> Csg<{ Self::NODES }> {
         let [along, against] = self.nappes;
         Csg::from_binary([Node::leaf(Leaf::Nappe(along)), Node::leaf(Leaf::Nappe(against)), Node::Union])
     }
@@ -78,18 +80,6 @@ impl DoubleCone {
     #[inline(always)]
     pub fn distance<T: Real>(&self, p: V3<T>) -> T {
         self.nappes[0].distance(p).min(self.nappes[1].distance(p))
-    }
-
-    /// The standard signed distance function `φ(p)`: exact, negative inside; NaN unless `p` is finite and within ±2^30.
-    #[must_use]
-    pub fn sdf(&self, p: Vec3) -> f32 {
-        if is_in_range(p) { self.distance(V3::from(p)) } else { f32::NAN }
-    }
-
-    /// The generalized signed distance function `φ_G(v, p)`, as [`Csg::gsdf`] has it.
-    #[must_use]
-    pub fn gsdf(&self, p: Vec3, v: Vec3) -> f32 {
-        self.program().gsdf(p, v)
     }
 
     /// None: it is unbounded.

@@ -1,9 +1,9 @@
 //! The wide solid angle: a hemisphere, or more of a ball.
 
+use super::readings;
 use crate::csg::{Csg, Node};
 use crate::invalid::{Fault, Invalid, coordinate, length, point, unit};
 use crate::leaf::{Bounds, HalfSpace, Leaf, Nappe, Sphere, sector_bounds, sector_distance};
-use crate::ray::is_in_range;
 use crate::real::Real;
 use crate::vec3::V3;
 use glam::Vec3;
@@ -27,6 +27,8 @@ pub struct WideSolidAngle {
     radius: f32,
     height: f32,
 }
+
+readings!(WideSolidAngle of 3 nodes);
 
 impl WideSolidAngle {
     /// The part of the ball of radius `reach` around `apex` in the directions from there that are less far from the unit
@@ -95,7 +97,7 @@ impl WideSolidAngle {
     ///
     /// Its own [`sdf`](Csg::sdf) has the sign of [`sdf`](Self::sdf), and is a lower bound of its magnitude.
     #[must_use]
-    pub const fn program(&self) -> Csg<3> {
+    pub const fn program(&self) -> Csg<{ Self::NODES }> {
         Csg::from_binary([Node::leaf(Leaf::Sphere(self.ball)), Node::leaf(self.lacking), Node::Difference])
     }
 
@@ -106,18 +108,6 @@ impl WideSolidAngle {
         let w = p - V3::splat(like, self.apex());
         let (radius, height) = (like.splat_like(self.radius), like.splat_like(self.height));
         sector_distance(w, V3::splat(like, self.axis), radius, height, like.splat_like(self.reach()))
-    }
-
-    /// The standard signed distance function `φ(p)`: exact, negative inside; NaN unless `p` is finite and within ±2^30.
-    #[must_use]
-    pub fn sdf(&self, p: Vec3) -> f32 {
-        if is_in_range(p) { self.distance(V3::from(p)) } else { f32::NAN }
-    }
-
-    /// The generalized signed distance function `φ_G(v, p)`, as [`Csg::gsdf`] has it.
-    #[must_use]
-    pub fn gsdf(&self, p: Vec3, v: Vec3) -> f32 {
-        self.program().gsdf(p, v)
     }
 
     /// A box around it.

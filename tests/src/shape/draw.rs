@@ -150,10 +150,14 @@ impl Shape {
             }
             _ => {
                 let (first, second) = plane(rng);
-                let mut corner = |along: f64| (first * along + second * rng.random_range(0.5..1.0)).as_vec3();
-                let (third, fourth) = (corner(1.0), corner(0.0));
+                // Multiples of a step so coarse that every corner is a sum without rounding: four exactly in a plane.
+                let step = 2.0_f64.powi(size.log2().floor() as i32 - 20);
+                let whole = |vector: DVec3| (vector / step).round();
+                let (point, first, quarter) = (whole(point.as_dvec3()), whole(first), whole(second / 4.0));
+                let mut quarters = || quarter * f64::from(rng.random_range(2..=4));
+                let corners = [point, point + first, point + first + quarters(), point + quarters()];
                 Self::Quad {
-                    corners: [point, point + first.as_vec3(), point + third, point + fourth],
+                    corners: corners.map(|corner| (corner * step).as_vec3()),
                 }
             }
         }

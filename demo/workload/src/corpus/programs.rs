@@ -1,6 +1,7 @@
 //! The programs the corpus asks about, by turns.
 
 use crate::scenes::PART;
+use crate::shapes;
 use crate::solids::ALONE;
 use glam::{Mat3, Vec3, vec3};
 use gsdf_nostd::{CappedCylinder, Capsule, Cuboid, Cylinder, HalfSpace, Nappe, Program, Sphere, Transform, csg, valid};
@@ -60,27 +61,34 @@ static COMPOSED: [Program<'static>; 4] = [
 ];
 
 /// How many programs there are.
-pub const PROGRAMS: usize = ALONE.len() + COMPOSED.len();
+pub const PROGRAMS: usize = ALONE.len() + shapes::PROGRAMS.len() + COMPOSED.len();
 
 /// The most leaves of any of them.
 pub(super) const MOST_LEAVES: usize = {
+    let (shapes, composed) = (most_leaves(&shapes::PROGRAMS), most_leaves(&COMPOSED));
+    if shapes < composed { composed } else { shapes }
+};
+
+const fn most_leaves(programs: &[Program<'_>]) -> usize {
     let mut most = 1;
     let mut index = 0;
-    while index < COMPOSED.len() {
-        if most < COMPOSED[index].leaves() {
-            most = COMPOSED[index].leaves();
+    while index < programs.len() {
+        if most < programs[index].leaves() {
+            most = programs[index].leaves();
         }
         index += 1;
     }
     most
-};
+}
 
-/// The program of a number, counted modulo [`PROGRAMS`]: first each solid of [`solids`](crate::solids) alone, then the
-/// composed ones.
+/// The program of a number, counted modulo [`PROGRAMS`]: first each solid of [`solids`](crate::solids) alone, then those
+/// of [`shapes`], then the larger ones.
 #[must_use]
 pub fn program(number: usize) -> Program<'static> {
-    match number % PROGRAMS {
-        number if number < ALONE.len() => ALONE[number].program(),
-        number => COMPOSED[number - ALONE.len()],
+    let number = number % PROGRAMS;
+    match number.checked_sub(ALONE.len()) {
+        None => ALONE[number].program(),
+        Some(number) if number < shapes::PROGRAMS.len() => shapes::PROGRAMS[number],
+        Some(number) => COMPOSED[number - shapes::PROGRAMS.len()],
     }
 }

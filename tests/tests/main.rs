@@ -1,0 +1,24 @@
+//! Every property, in one program: what is generic is compiled for all of them once, and not once per file.
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
+
+mod algebra;
+mod bad_input;
+mod bad_programs;
+mod boards;
+mod closest;
+mod composed;
+mod cone_cases;
+mod conformance;
+mod departures;
+mod distances;
+mod facets;
+mod golden;
+mod images;
+mod leaves;
+mod marcher;
+mod membership;
+mod packets;
+mod programs;
+mod references;
+mod scenes;
+mod shared_faces;
