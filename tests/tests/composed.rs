@@ -1,7 +1,7 @@
 //! The solids that are programs, along rays and at points, against exact arithmetic and their definitions.
 
 use glam::{DVec3, Vec3};
-use gsdf_nostd::{BoxFrame, Crossing, DoubleCone, Ray, Span, WideSolidAngle};
+use gsdf_nostd::{BoxFrame, Crossing, DoubleCone, Ray, Span, SphereTracer, Traced, WideSolidAngle};
 use gsdf_tests::corpus::jittered;
 use gsdf_tests::reference::ExactVec3;
 use gsdf_tests::sandwich::{ROUNDOFF, disagreements};
@@ -66,6 +66,11 @@ impl Built {
         ask!(self, solid => solid.program().sdf(point)).into()
     }
 
+    /// What sphere tracing over the solid's own distance comes to.
+    fn traced(&self, tracer: &SphereTracer, ray: &Ray) -> Traced<f32> {
+        ask!(self, solid => tracer.cast(solid, ray))
+    }
+
     /// Whether the ray starts inside, and where it crosses the surface.
     fn along(&self, ray: Ray) -> (bool, Vec<Crossing<f32>>) {
         let mut scratch = [Span::EMPTY; 8];
@@ -76,6 +81,9 @@ impl Built {
         })
     }
 }
+
+/// Four units in the last place, of the numbers that meet, are eight rounding errors.
+const FOUR_ULP: f64 = 8.0 * ROUNDOFF;
 
 /// A solid with a seed of its own.
 fn random(kind: usize, seed: u64) -> (Pcg64, Composed, Built, f64) {
@@ -208,9 +216,8 @@ fn points_are_inside_by_definition_and_distances_to_the_nearest_point() {
                 let apart = (other.as_dvec3() - at).length();
                 let larger = ROUNDOFF * (at.length().max(other.as_dvec3().length()) + solid.extent());
                 let change = (built.sdf(other) - sdf).abs();
-                // Four units in the last place are eight rounding errors.
                 assert!(
-                    change <= apart + 8.0 * larger,
+                    change <= apart + FOUR_ULP / ROUNDOFF * larger,
                     "{name}: {change} from {place} to {other}, {apart} apart: {solid:?}"
                 );
             }
@@ -223,5 +230,59 @@ fn points_are_inside_by_definition_and_distances_to_the_nearest_point() {
             inside * 10 > points && inside * 10 < 9 * points,
             "{name}: {inside} of {points} points inside"
         );
+    }
+}
+
+/// Without relaxation: where a march ends the distance is at most epsilon, and the exact crossing is not passed by more
+/// than four units in the last place.
+#[test]
+fn a_marcher_stops_at_the_surface_and_never_beyond() {
+    const RAYS: u64 = 2_000;
+    let tracer = SphereTracer {
+        relaxation: 1.0,
+        max_steps: 512,
+        ..SphereTracer::default()
+    };
+    for (kind, name) in COMPOSED.iter().enumerate() {
+        let outcomes = (0..RAYS).into_par_iter().map(|seed| {
+            let mut rng = Pcg64::seed_from_u64(seed * COMPOSED.len() as u64 + kind as u64);
+            let solid = Composed::random(&mut rng, kind, 1.0);
+            let built = Built::new(&solid);
+            let (origin, direction) = ray(&mut rng, &solid, 1.0);
+            let traced = built.traced(&tracer, &Ray::new(origin, direction).unwrap().within(0.0..1e4).unwrap());
+            if !traced.hit {
+                return (0, 0.0_f64);
+            }
+            let t = f64::from(traced.t);
+            let place = origin.as_dvec3() + direction.as_dvec3() * t;
+            let scale = origin.as_dvec3().length() + solid.extent() + t;
+            let left = solid.to_surface(place);
+            assert!(
+                left <= f64::from(tracer.epsilon) * t.max(1.0) + FOUR_ULP * scale,
+                "{name}: stopped {left} off the surface, from {origin} along {direction}: {solid:?}"
+            );
+            let Some(exact) = solid.exact(0.0).along(origin, direction).first_crossing_after(0.0) else {
+                return (1, 0.0);
+            };
+            let beyond = (t - exact.t.to_f64()) / (FOUR_ULP * scale);
+            // A start on the surface has that crossing behind it as well as ahead, by rounding; and a ray along the
+            // surface may cross it there or later.
+            let near =
+                |offset: f64, at: DVec3| solid.exact(offset).contains(at.to_array()) && !solid.exact(-offset).contains(at.to_array());
+            let middle = origin.as_dvec3() + direction.as_dvec3() * exact.t.to_f64().midpoint(t);
+            let excused = near(FOUR_ULP * scale, origin.as_dvec3()) || near(FOUR_ULP * scale, middle);
+            assert!(
+                beyond <= 1.0 || excused,
+                "{name}: {t} is beyond {:?}, {beyond} of what is allowed, from {origin} along {direction}: {solid:?}",
+                exact.t
+            );
+            (1, if excused { 0.0 } else { beyond })
+        });
+        let (hits, worst) = outcomes.reduce(|| (0, 0.0), |a, b| (a.0 + b.0, a.1.max(b.1)));
+        println!(
+            "{name}: {hits} of {RAYS} marches stop, at most {:.1} units in the last place beyond",
+            4.0 * worst
+        );
+        assert!(hits * 4 > RAYS, "{name}: only {hits} of {RAYS} marches stop");
     }
 }

@@ -17,7 +17,7 @@ struct Reference<'a> {
     is_facet: bool,
     holds: &'a dyn Fn(DVec3) -> bool,
     contains: &'a dyn Fn(f64, DVec3) -> bool,
-    to_surface: &'a dyn Fn(DVec3) -> Option<f64>,
+    to_surface: &'a dyn Fn(DVec3) -> f64,
     surface: &'a dyn Fn(&mut Pcg64) -> (DVec3, DVec3),
     edge_point: &'a dyn Fn(&mut Pcg64) -> DVec3,
 }
@@ -35,7 +35,7 @@ impl Reference<'_> {
             // Axes are of unit length in single precision only.
             let slack = 1e-6 * (extent + 10.0 * size);
             for point in [on, edge] {
-                let distance = (self.to_surface)(point).unwrap_or(0.0);
+                let distance = (self.to_surface)(point);
                 assert!(distance <= slack, "{name}: {point} is {distance} off the surface");
                 assert!((self.contains)(2.0 * slack, point), "{name}: {point} is outside");
                 assert!(!(self.contains)(-2.0 * slack, point), "{name}: {point} is inside");
@@ -48,24 +48,23 @@ impl Reference<'_> {
                 assert!(!sides[1], "{name}: not outside beyond {on} along {normal}");
             }
             let near = on + unit(rng) * size * log_uniform(rng, 1e-3, 2.0);
-            if (self.to_surface)(near).is_some_and(|distance| distance <= tiny) {
+            let distance = (self.to_surface)(near);
+            if distance <= tiny {
                 continue;
             }
             assert_eq!((self.holds)(near), (self.contains)(0.0, near), "{name}: {near}");
             // Nothing changes nearer than the nearest point of the surface, which is no farther than any other one.
-            if let Some(distance) = (self.to_surface)(near) {
-                assert!(
-                    distance <= (near - on).length() + slack,
-                    "{name}: {near} is not {distance} off the surface"
+            assert!(
+                distance <= (near - on).length() + slack,
+                "{name}: {near} is not {distance} off the surface"
+            );
+            for _ in 0..4 {
+                let beside = near + unit(rng) * (distance * 0.999 - slack).max(0.0);
+                assert_eq!(
+                    (self.holds)(near),
+                    (self.holds)(beside),
+                    "{name}: {near}, {distance} off, but {beside}"
                 );
-                for _ in 0..4 {
-                    let beside = near + unit(rng) * (distance * 0.999 - slack).max(0.0);
-                    assert_eq!(
-                        (self.holds)(near),
-                        (self.holds)(beside),
-                        "{name}: {near}, {distance} off, but {beside}"
-                    );
-                }
             }
         }
         // Less than a step from an edge there may be nothing behind a face.
@@ -122,7 +121,7 @@ fn references_of_programs_describe_one_solid() {
                 is_facet: false,
                 holds: &|p| solid.holds(p),
                 contains: &|offset, p| solid.exact(offset).contains(p.to_array()),
-                to_surface: &|p| Some(solid.to_surface(p)),
+                to_surface: &|p| solid.to_surface(p),
                 surface: &|rng| solid.surface(rng),
                 edge_point: &|rng| solid.edge_point(rng),
             };

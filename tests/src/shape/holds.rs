@@ -22,8 +22,8 @@ fn regular(corners: u32, reach: f64, first: f64) -> Vec<DVec2> {
 }
 
 /// The distance along an axis, and from it.
-pub(super) fn cylindrical(p: DVec3, axis: Vec3) -> (f64, f64) {
-    let axis = axis.as_dvec3().normalize();
+pub(super) fn cylindrical(p: DVec3, axis: impl Into<DVec3>) -> (f64, f64) {
+    let axis = axis.into().normalize();
     (p.dot(axis), p.cross(axis).length())
 }
 

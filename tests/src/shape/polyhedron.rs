@@ -44,6 +44,14 @@ impl Polyhedron {
         }
     }
 
+    /// The box between two corners.
+    pub(super) fn cuboid(min: Vec3, max: Vec3) -> Self {
+        let [x, z] = [(min.x, max.x), (min.z, max.z)].map(|(low, high)| Exact::from(high) - Exact::from(low));
+        let none = Exact::ZERO;
+        let outline = vec![[none.clone(), none.clone()], [none.clone(), z.clone()], [x.clone(), z], [x, none]];
+        Self::prism(min, max.y, outline)
+    }
+
     /// A prism over the regular hexagon with two sides across x, each so far from the middle.
     pub(super) fn hexagonal_prism(bottom: Vec3, top: f32, apothem: f32) -> Self {
         let near = Exact::from(apothem).quotient(&root_three(), BITS);
