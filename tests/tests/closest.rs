@@ -20,7 +20,7 @@ const POINTS: usize = 20;
 
 /// A point at a solid: near its surface, at an edge, or anywhere about.
 fn point(rng: &mut Pcg64, shape: &Shape, size: f64, number: usize) -> Vec3 {
-    let from = if number % 2 == 0 {
+    let from = if number.is_multiple_of(2) {
         shape.surface(rng).0
     } else {
         shape.edge_point(rng)

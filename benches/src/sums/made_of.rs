@@ -138,9 +138,9 @@ pub fn all() -> Result<Vec<Composed>, Invalid> {
             vec![sphere(LOW, 1.5)?, nappe(LOW, Vec3::Y, 0.75, 1.0)?],
             Leaf::SolidAngle(SOLID_ANGLE),
         ),
-        program("wide solid angle", "sphere, nappe", WIDE_SOLID_ANGLE.program().nodes()),
-        program("box frame", "4 cuboids", BOX_FRAME.program().nodes()),
-        program("double cone", "2 nappes", DOUBLE_CONE.program().nodes()),
+        program("wide solid angle", "sphere, nappe", WIDE_SOLID_ANGLE.program().nodes().to_vec()),
+        program("box frame", "4 cuboids", BOX_FRAME.program().nodes().to_vec()),
+        program("double cone", "2 nappes", DOUBLE_CONE.program().nodes().to_vec()),
     ])
 }
 
@@ -173,15 +173,15 @@ fn with_ends(mut side: Vec<Node>, a: Leaf, b: Leaf) -> Vec<Node> {
 fn shape(name: &'static str, of: &'static str, nodes: Vec<Node>, own: Leaf) -> Composed {
     Composed {
         own: Some(own),
-        ..program(name, of, &nodes)
+        ..program(name, of, nodes)
     }
 }
 
-fn program(name: &'static str, of: &'static str, nodes: &[Node]) -> Composed {
+fn program(name: &'static str, of: &'static str, nodes: Vec<Node>) -> Composed {
     Composed {
         name,
         of,
-        nodes: nodes.to_vec(),
+        nodes,
         own: None,
     }
 }

@@ -183,7 +183,7 @@ pub fn counts(shape: &Composed, rays: &Rays<f32>) -> Result<Counts> {
             counting(|| {
                 shape.parts().for_each(|part| {
                     black_box(crossing(part));
-                })
+                });
             })
             .1,
             counting(|| marched(&program, &line, &mut spans)).1,

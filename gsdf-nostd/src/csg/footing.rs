@@ -1,6 +1,6 @@
 //! What is known of the place where a line starts.
 
-use crate::leaf::{Ground, Solid};
+use crate::leaf::{Ground, Solid, Surface};
 use crate::range::max_norm;
 use crate::ray::Line;
 use crate::real::Real;
@@ -19,6 +19,12 @@ pub trait Footing<L: Solid, T: Real>: Copy {
     fn span(self, number: u32, solid: &L, line: &Line<T>, pose: Option<&Transform>) -> Span<T> {
         solid.span(&self.seen(number, solid, line, pose), &line.toward)
     }
+
+    /// Its surface at `t`.
+    #[inline(always)]
+    fn surface(self, number: u32, solid: &L, line: &Line<T>, pose: Option<&Transform>, t: T) -> Surface<T> {
+        solid.surface(&self.seen(number, solid, line, pose), &line.toward, t)
+    }
 }
 
 /// Nothing is known of the place.
@@ -34,6 +40,11 @@ impl<L: Solid, T: Real> Footing<L, T> for Anywhere {
     #[inline(always)]
     fn span(self, _: u32, solid: &L, line: &Line<T>, _: Option<&Transform>) -> Span<T> {
         solid.span_along(line)
+    }
+
+    #[inline(always)]
+    fn surface(self, _: u32, solid: &L, line: &Line<T>, _: Option<&Transform>, t: T) -> Surface<T> {
+        solid.surface_along(line, t)
     }
 }
 
@@ -56,6 +67,22 @@ impl<L: Solid, T: Real> Footing<L, T> for SeenFrom<'_, L::Seen<T::Scalar>> {
         match self.0.get(number as usize) {
             Some(seen) => L::lift(seen, line.toward.vv),
             None => solid.seen_from(line.origin),
+        }
+    }
+
+    #[inline(always)]
+    fn span(self, number: u32, solid: &L, line: &Line<T>, _: Option<&Transform>) -> Span<T> {
+        match self.0.get(number as usize) {
+            Some(seen) => solid.span_lifted(seen, &line.toward),
+            None => solid.span_along(line),
+        }
+    }
+
+    #[inline(always)]
+    fn surface(self, number: u32, solid: &L, line: &Line<T>, _: Option<&Transform>, t: T) -> Surface<T> {
+        match self.0.get(number as usize) {
+            Some(seen) => solid.surface_lifted(seen, &line.toward, t),
+            None => solid.surface_along(line, t),
         }
     }
 }

@@ -92,8 +92,7 @@ impl<L: Solid> Program<'_, L> {
             let here = leaf.eq(t.splat_like(number as f32));
             if here.any() {
                 let pose = framed.enter(*frame, self);
-                let seen = footing.seen(number, solid, &framed.local, pose);
-                let own = solid.surface(&seen, &framed.local.toward, t);
+                let own = footing.surface(number, solid, &framed.local, pose, t);
                 let outward = match pose {
                     Some(pose) => pose.normal_to_world(own.normal),
                     None => own.normal,

@@ -109,6 +109,31 @@ macro_rules! leaf_set {
                         $(Self::$variant(solid) => solid.span_along(line),)+
                     }
                 }
+
+                #[inline(always)]
+                fn span_lifted<T: Real>(&self, seen: &Seen<T::Scalar>, toward: &Toward<T>) -> Span<T> {
+                    match (self, seen) {
+                        $((Self::$variant(solid), Seen::$variant(seen)) => solid.span_lifted(seen, toward),)+
+                        #[allow(unreachable_patterns)]
+                        _ => Span::empty_like(toward.vv),
+                    }
+                }
+
+                #[inline(always)]
+                fn surface_lifted<T: Real>(&self, seen: &Seen<T::Scalar>, toward: &Toward<T>, t: T) -> Surface<T> {
+                    match (self, seen) {
+                        $((Self::$variant(solid), Seen::$variant(seen)) => solid.surface_lifted(seen, toward, t),)+
+                        #[allow(unreachable_patterns)]
+                        _ => Surface { normal: -toward.v, face: t.splat_like(0.0) },
+                    }
+                }
+
+                #[inline(always)]
+                fn surface_along<T: Real>(&self, line: &Line<T>, t: T) -> Surface<T> {
+                    match self {
+                        $(Self::$variant(solid) => solid.surface_along(line, t),)+
+                    }
+                }
             }
 
             $(

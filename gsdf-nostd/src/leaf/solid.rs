@@ -55,6 +55,25 @@ pub trait Solid: Copy {
         self.span(&self.seen_from(line.origin), &line.toward)
     }
 
+    /// [`lift`](Solid::lift) and [`span`](Solid::span) in one: what a choice of solids does without a view that has room
+    /// for the largest of them.
+    #[inline(always)]
+    fn span_lifted<T: Real>(&self, seen: &Self::Seen<T::Scalar>, toward: &Toward<T>) -> Span<T> {
+        self.span(&Self::lift(seen, toward.vv), toward)
+    }
+
+    /// [`lift`](Solid::lift) and [`surface`](Solid::surface) in one.
+    #[inline(always)]
+    fn surface_lifted<T: Real>(&self, seen: &Self::Seen<T::Scalar>, toward: &Toward<T>, t: T) -> Surface<T> {
+        self.surface(&Self::lift(seen, toward.vv), toward, t)
+    }
+
+    /// [`seen_from`](Solid::seen_from) and [`surface`](Solid::surface) in one.
+    #[inline(always)]
+    fn surface_along<T: Real>(&self, line: &Line<T>, t: T) -> Surface<T> {
+        self.surface(&self.seen_from(line.origin), &line.toward, t)
+    }
+
     /// The standard signed distance function `φ(p)`: how far from `p` to the nearest point of the surface, negative
     /// inside; NaN unless `p` is finite and within ±2^30.
     #[must_use]

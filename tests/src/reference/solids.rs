@@ -130,10 +130,11 @@ impl Expr {
 
     /// The points nearer than the rounding, which is positive, to a rhombus with these halves of its diagonals along x
     /// and z, between heights: the rhombus, a band along each of its sides, and a cylinder about each of its corners.
-    pub fn rounded_rhombus(bottom: ExactVec3, top: ExactVec3, half_x: f32, half_z: f32, rounding: Exact) -> Self {
+    #[must_use]
+    pub fn rounded_rhombus(bottom: &ExactVec3, top: &ExactVec3, half_x: f32, half_z: f32, rounding: &Exact) -> Self {
         let up = ExactVec3::from([0.0_f32, 1.0, 0.0]);
         let corners = [[half_x, 0.0, 0.0], [0.0, 0.0, half_z], [-half_x, 0.0, 0.0], [0.0, 0.0, -half_z]];
-        let corners = corners.map(|corner| &bottom + &ExactVec3::from(corner));
+        let corners = corners.map(|corner| bottom + &ExactVec3::from(corner));
         let sides = [0, 1, 2, 3].map(|corner| (&corners[corner], &corners[(corner + 1) % 4]));
         let outward = |(from, to): (&ExactVec3, &ExactVec3)| up.cross(&(to - from));
         let rhombus = Self::And(sides.map(|side| Self::half_space(side.0.clone(), outward(side))).into());
@@ -151,23 +152,24 @@ impl Expr {
             .each_ref()
             .map(|corner| Self::cylinder(corner.clone(), up.clone(), rounding.clone()));
         let section = Self::Or(bands.into_iter().chain(edges).chain([rhombus]).collect());
-        Self::And(vec![section, capped_below(&bottom, &up), capped_above(&top, &up)])
+        Self::And(vec![section, capped_below(bottom, &up), capped_above(top, &up)])
     }
 
     /// The twelve beams along the edges of a box, of a square section inward.
-    pub fn box_frame(min: ExactVec3, max: ExactVec3, thickness: &Exact) -> Self {
+    #[must_use]
+    pub fn box_frame(min: &ExactVec3, max: &ExactVec3, thickness: &Exact) -> Self {
         let axes = [[1.0_f32, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].map(ExactVec3::from);
         // At the lower face, or at the upper one, of the axis.
         let wall = |axis: &ExactVec3, upper: bool| {
             if upper {
-                capped_above(&max, axis).and(capped_below(&(&max - &axis.times(thickness)), axis))
+                capped_above(max, axis).and(capped_below(&(max - &axis.times(thickness)), axis))
             } else {
-                capped_below(&min, axis).and(capped_above(&(&min + &axis.times(thickness)), axis))
+                capped_below(min, axis).and(capped_above(&(min + &axis.times(thickness)), axis))
             }
         };
         let beam = |number: usize| {
             let [along, first, second] = [0, 1, 2].map(|turn| &axes[(number / 4 + turn) % 3]);
-            let ends = capped_below(&min, along).and(capped_above(&max, along));
+            let ends = capped_below(min, along).and(capped_above(max, along));
             Self::And(vec![ends, wall(first, number & 1 != 0), wall(second, number & 2 != 0)])
         };
         Self::Or((0..12).map(beam).collect())

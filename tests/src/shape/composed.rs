@@ -104,7 +104,7 @@ impl Composed {
                 if thickness.sign().is_le() {
                     return Expr::Or(Vec::new());
                 }
-                Expr::box_frame(moved(min, Vec3::ONE, -offset), moved(max, Vec3::ONE, offset), &thickness)
+                Expr::box_frame(&moved(min, Vec3::ONE, -offset), &moved(max, Vec3::ONE, offset), &thickness)
             }
             Self::DoubleCone {
                 apex,

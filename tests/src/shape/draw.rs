@@ -118,7 +118,7 @@ impl Shape {
                 // The second radius is the first one, a few last places beside it, or anything that leaves a hull.
                 let b_radius = match rng.random_range(0..4) {
                     0 => radius,
-                    1 => radius * (1.0 + f32::EPSILON * rng.random_range(-9_i8..=9) as f32),
+                    1 => radius * (1.0 + f32::EPSILON * f32::from(rng.random_range(-9_i8..=9))),
                     _ => radius + apart * rng.random_range(-0.95..0.95),
                 };
                 Self::RoundedCone {

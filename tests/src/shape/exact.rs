@@ -79,7 +79,7 @@ impl Shape {
                 rounding,
             } => {
                 let (bottom, top) = (moved(bottom, Vec3::Y, &back), moved(bottom.with_y(top), Vec3::Y, &out));
-                Expr::rounded_rhombus(bottom, top, half_x, half_z, grown(rounding))
+                Expr::rounded_rhombus(&bottom, &top, half_x, half_z, &grown(rounding))
             }
             Self::RoundedCone { a, b, a_radius, b_radius } => Expr::rounded_cone(a, b, grown(a_radius), grown(b_radius)),
             Self::SolidAngle {

@@ -25,7 +25,7 @@ fn root_three() -> Exact {
 
 impl Polyhedron {
     /// A prism over a polygon, given by its corners (x, z) from the middle, one after the other.
-    fn prism(bottom: Vec3, top: f32, outline: Vec<[Exact; 2]>) -> Self {
+    fn prism(bottom: Vec3, top: f32, outline: &[[Exact; 2]]) -> Self {
         let count = outline.len();
         let at = |y: Exact| {
             outline
@@ -49,7 +49,7 @@ impl Polyhedron {
         let [x, z] = [(min.x, max.x), (min.z, max.z)].map(|(low, high)| Exact::from(high) - Exact::from(low));
         let none = Exact::ZERO;
         let outline = vec![[none.clone(), none.clone()], [none.clone(), z.clone()], [x.clone(), z], [x, none]];
-        Self::prism(min, max.y, outline)
+        Self::prism(min, max.y, &outline)
     }
 
     /// A prism over the regular hexagon with two sides across x, each so far from the middle.
@@ -65,7 +65,7 @@ impl Polyhedron {
             [none, -far],
             [wide, -near],
         ];
-        Self::prism(bottom, top, outline)
+        Self::prism(bottom, top, &outline)
     }
 
     /// A prism over the regular triangle with one side across z, below the middle, and a corner above.
@@ -73,7 +73,7 @@ impl Polyhedron {
         let inradius = Exact::from(inradius);
         let half = &inradius * &root_three();
         let outline = vec![[Exact::ZERO, inradius.scaled(1)], [-&half, -&inradius], [half, -inradius]];
-        Self::prism(bottom, top, outline)
+        Self::prism(bottom, top, &outline)
     }
 
     /// A prism over the rhombus with these halves of its diagonals.
@@ -81,7 +81,7 @@ impl Polyhedron {
         let (x, z) = (Exact::from(half_x), Exact::from(half_z));
         let none = Exact::ZERO;
         let outline = vec![[x.clone(), none.clone()], [none.clone(), z.clone()], [-x, none.clone()], [none, -z]];
-        Self::prism(bottom, top, outline)
+        Self::prism(bottom, top, &outline)
     }
 
     /// The octahedron with its corners on the axes of its centre, so far away.
