@@ -82,10 +82,10 @@ impl Invalid {
     pub const fn message(&self) -> &'static str {
         match self.fault {
             Fault::NotFinite => "a parameter is NaN or infinite: give a finite number",
-            Fault::TooFar => "a coordinate is out of range: keep it within -2^30..2^30",
+            Fault::TooFar => "a coordinate is out of range: keep it within -2^30..2^30, or measure the scene in a Unit",
             Fault::NotPositive => "a size is zero or negative: give one from 2^-20 to 2^30",
-            Fault::TooSmall => "a size is too small: give one from 2^-20 to 2^30, or scale the scene",
-            Fault::TooLarge => "a size is too large: give one from 2^-20 to 2^30, or scale the scene",
+            Fault::TooSmall => "a size is too small: give one from 2^-20 to 2^30, or measure the scene in a Unit",
+            Fault::TooLarge => "a size is too large: give one from 2^-20 to 2^30, or measure the scene in a Unit",
             Fault::NotUnit => "a direction is not of unit length: normalize it",
             Fault::Reversed => "two ends or faces coincide or are in the wrong order: swap them or move them apart",
             Fault::OffAxis => "a point does not lie on the axis it ends: move it there",

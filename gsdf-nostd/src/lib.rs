@@ -60,7 +60,8 @@
 //! # Range
 //! Coordinates and sizes up to 2<sup>30</sup>, sizes from 2<sup>-20</sup>, transforms that stretch by at most
 //! 2<sup>10</sup>; directions from 2<sup>-40</sup> to 2<sup>40</sup>. What lies outside is refused with an error that
-//! says so, at compile time where a scene is `const`.
+//! says so, at compile time where a scene is `const`. A scene at 1e-30 or 1e30, and rays of any speed, are measured in a
+//! [`Unit`] of their own: exactly, and with the same relative results.
 //!
 //! # Paying for what you use
 //! A program links the formulas of its leaf type's solids and no others: [`leaf_set!`] makes a leaf type of the ones
@@ -110,6 +111,7 @@ mod span;
 mod toward;
 mod trace;
 mod transform;
+mod unit;
 mod vec3;
 
 pub use camera::{Camera, Projection, Raster};
@@ -131,4 +133,5 @@ pub use span::Span;
 pub use toward::{Toward, reciprocal_speed};
 pub use trace::{Field, SphereTracer, Traced};
 pub use transform::Transform;
+pub use unit::Unit;
 pub use vec3::V3;

@@ -4,8 +4,8 @@ use glam::{Vec3, vec3};
 use gsdf_nostd::{Cylinder, HalfSpace, Invalid, Leaf, Nappe, Node, Sphere};
 use gsdf_workload::shapes::{BOX_FRAME, DOUBLE_CONE, WIDE_SOLID_ANGLE};
 use gsdf_workload::solids::{
-    CAPPED_CONE, CAPPED_CYLINDER, CAPSULE, CONE, CUBOID, HEXAGONAL_PRISM, OCTAHEDRON, PYRAMID, RHOMBUS, ROUNDED_CONE, SOLID_ANGLE,
-    TRIANGULAR_PRISM,
+    CAPPED_CONE, CAPPED_CYLINDER, CAPSULE, CONE, CUBOID, HEXAGONAL_PRISM, OCTAHEDRON, PYRAMID, RHOMBUS, ROUNDED_CONE, ROUNDED_RHOMBUS,
+    SOLID_ANGLE, TRIANGULAR_PRISM,
 };
 
 /// A shape, and the program of parts that is the same point set.
@@ -81,6 +81,29 @@ pub fn all() -> Result<Vec<Composed>, Invalid> {
         rhombus.push(half_space(vec3(x * RHOMBUS.half_x(), 0.0, 0.0), vec3(x * side.x, 0.0, z * side.z))?);
     }
 
+    // Where the rounding begins and ends: an octagon, of which four sides are those of the rhombus moved outward.
+    let rounding = ROUNDED_RHOMBUS.rounding();
+    let (half_x, half_z) = (ROUNDED_RHOMBUS.half_x(), ROUNDED_RHOMBUS.half_z());
+    let side = vec3(half_z, 0.0, half_x).normalize();
+    let mut octagon = vec![bottom, top];
+    for (x, z) in [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)] {
+        let normal = vec3(x * side.x, 0.0, z * side.z);
+        octagon.push(half_space(vec3(x * half_x, 0.0, 0.0) + rounding * normal, normal)?);
+    }
+    let mut edges = Vec::new();
+    for (normal, corner, reach) in [(Vec3::X, half_x, side.x), (Vec3::Z, half_z, side.z)] {
+        for sign in [1.0, -1.0] {
+            octagon.push(half_space(sign * (corner + rounding * reach) * normal, sign * normal)?);
+            let edge = Cylinder::new(sign * corner * normal, Vec3::Y, rounding).map(Leaf::Cylinder)?;
+            edges.push(intersection(vec![edge, bottom, top]));
+        }
+    }
+    let mut rounded_rhombus = intersection(octagon);
+    for edge in edges {
+        rounded_rhombus.extend(edge);
+        rounded_rhombus.push(Node::Union);
+    }
+
     // The radii .75 and .25 are 1.5 apart: the sine of the half-angle is 1/3, and the circles of contact lie a third of a radius up.
     let rounded_side = intersection(vec![
         nappe(vec3(0.0, 1.5, 0.0), Vec3::NEG_Y, 1.0, 8.0_f32.sqrt())?,
@@ -126,6 +149,12 @@ pub fn all() -> Result<Vec<Composed>, Invalid> {
         cap("octahedron", "8 half-spaces", octahedron, Leaf::Octahedron(OCTAHEDRON)),
         cap("pyramid", "5 half-spaces", pyramid, Leaf::Pyramid(PYRAMID)),
         cap("rhombus", "6 half-spaces", rhombus, Leaf::Rhombus(RHOMBUS)),
+        shape(
+            "rounded rhombus",
+            "4 cylinders, 18 half-spaces",
+            rounded_rhombus,
+            Leaf::Rhombus(ROUNDED_RHOMBUS),
+        ),
         shape(
             "rounded cone",
             "2 spheres, nappe, 2 half-spaces",
