@@ -4,6 +4,7 @@
 pub mod arrangements;
 pub mod conformance;
 pub mod corpus;
+pub mod fuzzed;
 pub mod golden;
 pub mod poses;
 pub mod reference;
