@@ -6,6 +6,8 @@ pub mod conformance;
 pub mod corpus;
 pub mod fuzzed;
 pub mod golden;
+pub mod laws;
+pub mod leaks;
 pub mod poses;
 pub mod reference;
 pub mod sandwich;

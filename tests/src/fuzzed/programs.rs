@@ -256,7 +256,7 @@ fn check_departure(program: &Program<'_>, ray: Ray, direction: glam::Vec3, tally
     assert!(!signed.is_nan(), "from {hit:?} along {direction}: {nodes:?}");
     if let Some(next) = next {
         assert!(
-            next.t == signed.abs() && next.t > 0.0 && next.entering == (signed > 0.0),
+            next.t == signed.abs() && next.entering == signed.is_sign_positive(),
             "{next:?}, but {signed} from {hit:?} along {direction}: {nodes:?}"
         );
         assert!(
