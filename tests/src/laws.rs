@@ -53,7 +53,9 @@ impl Scene {
         let mut nodes = tree.postfix(&leaves.collect::<Vec<_>>());
         let mut order = tree.order().into_iter();
         for node in &mut nodes {
-            if let (Node::Leaf { frame, .. }, Some(number)) = (node, order.next()) {
+            if let Node::Leaf { frame, .. } = node
+                && let Some(number) = order.next()
+            {
                 *frame = self.solids[number].1;
             }
         }
@@ -167,4 +169,23 @@ pub fn scaled(shape: &Shape, by: f32) -> Shape {
         *length *= by;
     }
     shape
+}
+
+impl Shape {
+    /// Whether some face of the solid is curved.
+    #[must_use]
+    pub fn is_round(&self) -> bool {
+        match self {
+            Self::HalfSpace { .. }
+            | Self::Cuboid { .. }
+            | Self::HexagonalPrism { .. }
+            | Self::TriangularPrism { .. }
+            | Self::Octahedron { .. }
+            | Self::Pyramid { .. }
+            | Self::Triangle { .. }
+            | Self::Quad { .. } => false,
+            Self::Rhombus { rounding, .. } => *rounding > 0.0,
+            _ => true,
+        }
+    }
 }

@@ -70,13 +70,20 @@ fn cuts(rng: &mut Pcg64, pieces: usize) -> Vec<f32> {
 }
 
 impl Shared {
+    /// A random arrangement, in frame 1.
     pub(super) fn random(rng: &mut Pcg64, kind: usize) -> Self {
-        match kind {
+        let mut shared = match kind {
             0 => Self::boxes(rng),
             1 => Self::wedges(rng),
             2 => Self::stack(rng),
             _ => Self::mesh(rng),
+        };
+        for node in shared.nodes.iter_mut().chain(shared.whole.iter_mut().flatten()) {
+            if let Node::Leaf { frame, .. } = node {
+                *frame = 1;
+            }
         }
+        shared
     }
 
     fn new(nodes: Vec<Node>, middle: DVec3, depth: f64, size: f64) -> Self {
@@ -285,7 +292,7 @@ impl Shared {
         match rng.random_range(0..8) {
             0 => from,
             1 => to,
-            2 => at + unit(rng) * self.size * log_uniform(rng, 1e-9, 1e-5),
+            2 => at + unit(rng) * self.size * log_uniform(rng, 1e-9, 3e-7),
             _ => at,
         }
     }
