@@ -61,11 +61,21 @@ fn a_line_run_backwards_swaps_entry_and_exit_to_the_bit() {
             assert_eq!(one.enter, -other.enter, "{one:?} and {other:?}: {trial:?}");
             return;
         }
-        assert_eq!(
-            (one.enter, one.exit),
-            (-other.exit, -other.enter),
-            "{one:?} and {other:?}: {trial:?}"
-        );
+        let ends = [(one.enter, -other.exit), (one.exit, -other.enter)];
+        if ends.iter().any(|(end, turned)| end != turned) {
+            let unit = if T::nearest(1.0 + f64::EPSILON) == T::from(1.0) {
+                f64::from(f32::EPSILON)
+            } else {
+                f64::EPSILON
+            };
+            for (end, turned) in ends {
+                let (end, turned): (f64, f64) = (end.into(), turned.into());
+                let is_near = end == turned || (end - turned).abs() <= 4.0 * unit * end.abs();
+                assert!(shape.is_round() && is_near, "{one:?} and {other:?}: {trial:?}");
+            }
+            exceptions.fetch_add(1, Ordering::Relaxed);
+            return;
+        }
         let seen = leaf.seen_from(forth.origin);
         for t in [one.enter, one.exit] {
             if t.abs() < T::from(f32::INFINITY) {

@@ -4,6 +4,7 @@
 use super::Tally;
 use super::raw::Raw;
 use super::solids::shape;
+use crate::poses::Posed;
 use crate::sandwich::ROUNDOFF;
 use glam::{DMat3, DVec3, Mat3, Vec3};
 use gsdf_nostd::{Node, Program, Ray, Span, Transform, V3};
@@ -11,6 +12,9 @@ use gsdf_nostd::{Node, Program, Ray, Span, Transform, V3};
 /// How many rounding errors of the numbers that meet a distance may be off: those of the surface, of the distance and
 /// of the map.
 const ALLOWED: f64 = 32.0;
+
+/// How many of them a crossing may be off its surface, in a pose.
+const PROMISED: f64 = 16.0;
 
 /// The inverse undoes the matrix, no vector is stretched by less than the stretch, and a posed solid's standard distance
 /// is no more than the way to its surface in any direction.
@@ -61,14 +65,13 @@ pub fn transforms(bytes: &[u8]) -> Tally {
         let scale = place.as_dvec3().length() + translation.as_dvec3().length() + shape.extent() * f64::from(pose.stretch());
         let what = || format!("{signed} at {place}, {along} along {ray:?} of {shape:?} in {pose:?}");
         assert!(!signed.is_nan() && !along.is_nan(), "{}", what());
-        assert!(
-            signed.abs() <= travelled + ALLOWED * ROUNDOFF * (scale + travelled.min(1e30)),
-            "{}",
-            what()
-        );
-        if signed.abs() > ALLOWED * ROUNDOFF * scale {
-            assert_eq!(signed < 0.0, along < 0.0, "{}", what());
-        }
+        // Of a solid thinner than rounding the faces' own rounding errors move the edges far: there exact arithmetic is asked
+        // whether what was found is within rounding of its surface.
+        let is_near = |t: f64| Posed::new(shape.into(), pose).is_near_leaf(&ray, 0, t, PROMISED);
+        let is_no_farther = signed.abs() <= travelled + ALLOWED * ROUNDOFF * (scale + travelled.min(1e30));
+        assert!(is_no_farther || is_near(along.abs()), "{}", what());
+        let is_same_side = signed.abs() <= ALLOWED * ROUNDOFF * scale || (signed < 0.0) == (along < 0.0);
+        assert!(is_same_side || is_near(0.0), "{}", what());
         let hit = sight.cast();
         if let Some(hit) = hit {
             assert!(hit.t >= 0.0 && (hit.normal.length() - 1.0).abs() < 1e-5, "{hit:?}: {}", what());
