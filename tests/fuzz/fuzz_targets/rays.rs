@@ -2,5 +2,5 @@
 #![no_main]
 
 libfuzzer_sys::fuzz_target!(|bytes: &[u8]| {
-    gsdf_tests::fuzzed::rays(bytes);
+    let _tally = gsdf_tests::fuzzed::rays(bytes);
 });

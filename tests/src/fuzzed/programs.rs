@@ -98,6 +98,7 @@ fn leaves<'a>(nodes: &'a [Node], poses: &'a [Transform]) -> impl Iterator<Item =
 
 /// A program is what can be read as one expression with at most 32 operands at a time, and whose frames have poses; its
 /// answers are those of the definition.
+#[must_use]
 pub fn programs(bytes: &[u8]) -> Tally {
     let (mut raw, mut tally) = (Raw::new(bytes), Tally::default());
     let poses: Vec<Transform> = (0..raw.below(4))

@@ -95,7 +95,7 @@ impl<'a> Raw<'a> {
             1..4 => axes[usize::from(self.below(6))],
             _ => {
                 let [x, y, z] = [(); 3].map(|()| f64::from(self.signed()));
-                DVec3::new(x, y, z).try_normalize().map_or(Vec3::Y, |unit| unit.as_vec3())
+                DVec3::new(x, y, z).try_normalize().unwrap_or(DVec3::Y).as_vec3()
             }
         }
     }

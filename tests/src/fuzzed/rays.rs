@@ -53,6 +53,7 @@ fn asked(raw: &mut Raw<'_>) -> [Asked; 8] {
 }
 
 /// Whether a ray is refused is a matter of its numbers; its answers are the same alone and in a packet.
+#[must_use]
 pub fn rays(bytes: &[u8]) -> Tally {
     let (mut raw, mut tally) = (Raw::new(bytes), Tally::default());
     let (nodes, poses) = program(&mut raw, &mut tally);

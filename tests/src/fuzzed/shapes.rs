@@ -39,6 +39,7 @@ struct Asked<'a> {
 }
 
 /// The same solid, leaf or program, whatever it is: in its two distances, its bounds and its normals.
+#[must_use]
 pub fn shapes(bytes: &[u8]) -> Tally {
     let (mut raw, mut tally) = (Raw::new(bytes), Tally::default());
     if raw.below(8) > 0 {
@@ -239,9 +240,8 @@ fn sharpness(solid: &Composed) -> f64 {
         f64::from(most / least)
     };
     match *solid {
-        Composed::BoxFrame { .. } => 1.0,
+        Composed::BoxFrame { .. } | Composed::WideSolidAngle { height: 0.0, .. } => 1.0,
         Composed::DoubleCone { radius, height, .. } => ratio(&[radius, height]),
-        Composed::WideSolidAngle { radius, height, .. } if height == 0.0 => f64::from(u8::from(radius > 0.0)),
         Composed::WideSolidAngle { radius, height, .. } => ratio(&[radius, height]),
     }
 }

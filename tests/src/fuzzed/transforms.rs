@@ -18,6 +18,7 @@ const PROMISED: f64 = 16.0;
 
 /// The inverse undoes the matrix, no vector is stretched by less than the stretch, and a posed solid's standard distance
 /// is no more than the way to its surface in any direction.
+#[must_use]
 pub fn transforms(bytes: &[u8]) -> Tally {
     let (mut raw, mut tally) = (Raw::new(bytes), Tally::default());
     let (matrix, translation) = raw.affine();
