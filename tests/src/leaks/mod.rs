@@ -205,16 +205,19 @@ fn check(shared: &Shared, pose: &Transform, ray: &Ray, edge: DVec3, tally: &mut 
                 .1
                 .iter()
                 .any(|crossing| (f64::from(crossing.t) - edge).abs() * speed <= 1e-3 * shared.size);
-            match (shared.is_hollow, is_met) {
-                (true, true) => Spans::new(),
-                (true, false) => vec![(edge, f64::INFINITY)],
-                (false, _) => gaps(&vec![(edge, within)], &union),
+            if shared.is_hollow {
+                if !is_met {
+                    tally.leaks += 1;
+                    tally.first.get_or_insert_with(|| leak(format!("nothing near {edge}")));
+                }
+                return;
             }
+            gaps(&vec![(edge, within)], &union)
         }
     };
     let mut is_sliver = false;
     for (from, to) in gaps {
-        let is_at_edge = |t: f64| shared.distance_to_edge(at(t)) <= rounding(t);
+        let is_at_edge = |t: f64| t.is_finite() && shared.distance_to_edge(at(t)) <= rounding(t);
         if is_at_edge(from) && is_at_edge(to) {
             is_sliver = true;
         } else {
