@@ -52,7 +52,7 @@ fn a_line_run_backwards_swaps_entry_and_exit_to_the_bit() {
         };
         let (forth, back) = (line(trial.direction), line(-trial.direction));
         let (one, other): (Span<T>, Span<T>) = (leaf.span_along(&forth), leaf.span_along(&back));
-        let is_empty = |span: Span<T>| !(span.enter < span.exit);
+        let is_empty = |span: Span<T>| span.enter >= span.exit;
         assert_eq!(is_empty(one), is_empty(other), "{one:?} and {other:?}: {trial:?}");
         if is_empty(one) {
             return;
@@ -391,7 +391,7 @@ fn the_two_sides_of_a_plane_meet_to_the_bit() {
         let meet = one.exit == other.enter && one.enter == -infinity && other.exit == infinity
             || other.exit == one.enter && other.enter == -infinity && one.exit == infinity;
         let parallel = one.enter == -infinity && one.exit == infinity || other.enter == -infinity && other.exit == infinity;
-        let in_plane = !(one.enter < one.exit) && !(other.enter < other.exit);
+        let in_plane = one.enter >= one.exit && other.enter >= other.exit;
         assert!(meet || parallel || in_plane, "{trial:?}");
     }
     for_leaves(|_, shape, trial| {
