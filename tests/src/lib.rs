@@ -4,7 +4,10 @@
 pub mod arrangements;
 pub mod conformance;
 pub mod corpus;
+pub mod fuzzed;
 pub mod golden;
+pub mod laws;
+pub mod leaks;
 pub mod poses;
 pub mod reference;
 pub mod sandwich;

@@ -167,6 +167,7 @@ pub(super) fn frustum_distance<T: Real>(across: T, up: T, height: T, first: T, s
     let to_cap = past_rim.squared() + over_cap.squared();
     let to_side = off_x.squared() + off_y.squared();
     let distance = to_cap.min(to_side).sqrt();
-    let inside = off_x.lt(zero) & over_cap.lt(zero);
+    // Within the side's line by a turn: of a flat cone `off_x` is lost in the rounding of its radius.
+    let inside = (x * side_y).lt(y * side_x) & over_cap.lt(zero);
     T::select(inside, -distance, distance)
 }

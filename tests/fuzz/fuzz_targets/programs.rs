@@ -1,0 +1,6 @@
+//! See `gsdf_tests::fuzzed::programs`.
+#![no_main]
+
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| {
+    let _tally = gsdf_tests::fuzzed::programs(bytes);
+});
