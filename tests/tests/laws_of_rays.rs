@@ -1,6 +1,5 @@
 //! What a ray sees does not depend on which way it is run through, in which unit lengths are, and where the world stands:
 //! to the bit where the numbers allow it, within the rounding bound elsewhere.
-#![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 use core::ops::Neg;
 use core::sync::atomic::{AtomicUsize, Ordering};

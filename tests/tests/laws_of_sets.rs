@@ -1,6 +1,5 @@
 //! What holds of sets holds of scenes, to the bit: crossings, leaves, faces and normals, of all kinds of solids, at rest and
 //! posed. That it holds of any spans at all is proved in `algebra.rs`; here it goes through every stage of a query.
-#![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 use gsdf_nostd::{Hit, Node, Ray};
 use gsdf_tests::conformance::packet::bits;

@@ -329,18 +329,18 @@ impl Solid for Rhombus {
                 round.chords[0].crossings(toward.per_component.x),
                 round.chords[1].crossings(toward.per_component.z),
             );
-            let face = |edge: usize| Surface {
-                normal: edges[edge].normal(axis, toward, t),
-                face: t.splat_like(6.0 + edge as f32),
+            let face = |number: usize, edge: &SeenSide<T>| Surface {
+                normal: edge.normal(axis, toward, t),
+                face: t.splat_like(6.0 + number as f32),
             };
             // Where a side goes over into an edge, rounding may leave it to the chord to bound the ray: the edge
             // beyond it is what is there.
-            for (edge, chord) in [a, b, c, d].into_iter().enumerate().rev() {
-                last = face(edge).or_else(chord.eq(t), last);
+            for ((number, edge), chord) in edges.iter().enumerate().zip([a, b, c, d]).rev() {
+                last = face(number, edge).or_else(chord.eq(t), last);
             }
-            for (edge, cylinder) in edges.iter().enumerate().rev() {
-                let span = cylinder.span(axis, toward);
-                last = face(edge).or_else(span.enter.eq(t) | span.exit.eq(t), last);
+            for (number, edge) in edges.iter().enumerate().rev() {
+                let span = edge.span(axis, toward);
+                last = face(number, edge).or_else(span.enter.eq(t) | span.exit.eq(t), last);
             }
         }
         let crossed = Crossed::at(t, last)
