@@ -100,6 +100,7 @@ mod csg;
 mod format;
 mod invalid;
 mod leaf;
+mod plain;
 mod quadratic;
 mod range;
 mod ray;
@@ -122,6 +123,7 @@ pub use leaf::{
     Bounds, CappedCone, CappedCylinder, Capsule, Cone, Cuboid, Cylinder, Ground, HalfSpace, HexagonalPrism, Leaf, Nappe, Octahedron,
     Pyramid, Quad, Rhombus, RoundedCone, Solid, SolidAngle, Sphere, Surface, Triangle, TriangularPrism,
 };
+pub use plain::Plain;
 pub use quadratic::roots;
 pub use range::{MAX_LENGTH, MAX_SPEED, MAX_STRETCH, MIN_LENGTH, UNIT_TOLERANCE};
 pub use ray::{Line, Ray, RayError};
