@@ -395,8 +395,8 @@ fn moved(shape: Shape, by: DVec3) -> Shape {
         Shape::Triangle { corners } => corners.iter_mut().for_each(|corner| *corner += by),
         Shape::Quad { corners } => {
             // To multiples of the last place, so that the corners stay in a plane.
-            let by = (by / 1024.0).round() * 1024.0;
-            corners.iter_mut().for_each(|corner| *corner = (*corner / 1024.0).round() * 1024.0 + by);
+            let by = (by / 64.0).round() * 64.0;
+            corners.iter_mut().for_each(|corner| *corner += by);
         }
     }
     moved
