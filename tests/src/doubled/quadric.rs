@@ -98,6 +98,18 @@ impl Quadric<f64> {
         (xx * x + xy * y + xz * z + a) * x + (yy * y + yz * z + b) * y + (zz * z + c) * z + self.constant
     }
 
+    /// The sum of the magnitudes of the terms of the value at a place.
+    pub(super) fn weight(&self, [x, y, z]: [f64; 3]) -> f64 {
+        let (squares, mixed, linear) = (self.squares.map(f64::abs), self.mixed.map(f64::abs), self.linear.map(f64::abs));
+        let magnitudes = Self {
+            squares,
+            mixed,
+            linear,
+            constant: self.constant.abs(),
+        };
+        magnitudes.value([x.abs(), y.abs(), z.abs()])
+    }
+
     /// The gradient at a place.
     pub(super) fn gradient(&self, [x, y, z]: [f64; 3]) -> [f64; 3] {
         let ([xx, yy, zz], [xy, xz, yz], [a, b, c]) = (self.squares, self.mixed, self.linear);

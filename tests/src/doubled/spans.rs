@@ -145,39 +145,43 @@ impl Solid {
     /// other or none: where the ray grazes a surface.
     ///
     /// `off` is by how much a crossing was found to be off, with its sign. Where several surfaces are crossed as near as
-    /// that, or within rounding at either place, the condition is the worst of theirs: which of them bounds the solid is
-    /// then a matter of rounding.
+    /// that, or within rounding of where it was found, the condition is the worst of theirs: which of them bounds the solid
+    /// is then a matter of rounding.
     #[must_use]
-    pub fn condition(&self, (origin, direction): (Vec3, Vec3), t: Ball, off: f64, roundoff: f64, inputs: &[Input]) -> f64 {
+    pub fn condition(&self, ray: (Vec3, Vec3), t: Ball, off: f64, roundoff: f64, inputs: &[Input]) -> f64 {
+        let line = self.sightline(ray.0, ray.1);
+        let (s, off) = (-t.distance_to(line.nearest) / line.step, off / line.step);
+        let here = self.condition_at(ray, &line, s, off.abs(), roundoff, inputs);
+        let there = if off == 0.0 { 0.0 } else { self.condition_at(ray, &line, s + off, 0.0, roundoff, inputs) };
+        here.max(there).max(t.to_f64().abs())
+    }
+
+    /// The worst condition of the surfaces that are crossed within `reach` of a place, or within rounding there.
+    fn condition_at(&self, (origin, direction): (Vec3, Vec3), line: &Sightline, s: f64, reach: f64, roundoff: f64, inputs: &[Input]) -> f64 {
         /// What `f64` may lose of a polynomial's value, relative to its terms.
-        const NOISE: f64 = 1e-12;
+        const NOISE: f64 = 1e-15;
         /// How many rounding errors a surface may be off.
         const ROUNDINGS: f64 = 32.0;
-        let line = self.sightline(origin, direction);
-        let (s, off) = (-t.distance_to(line.nearest) / line.step, off / line.step);
+        let t = line.nearest + line.step * s;
         let at = [0, 1, 2].map(|axis| line.start[axis].to_f64() + s * line.along[axis]);
         let beyond = [0, 1, 2].map(|axis| at[axis] + line.along[axis]);
         let slope_of = |gradient: [f64; 3]| gradient[0] * line.along[0] + gradient[1] * line.along[1] + gradient[2] * line.along[2];
         let by_ray = [0, 1, 2].map(|axis| {
-            let (from_origin, along) = (f64::from(origin[axis]), t.to_f64() * f64::from(direction[axis]));
+            let (from_origin, along) = (f64::from(origin[axis]), t * f64::from(direction[axis]));
             (from_origin.abs() + along.abs()) / self.units.scale
         });
-        let mut worst = t.to_f64().abs();
+        let mut worst = 0.0_f64;
         for (number, surface) in self.surfaces.iter().enumerate() {
             let gradient = surface.nearly.gradient(at);
             let (value, slope) = (surface.nearly.value(at), slope_of(gradient));
             let weighed = |by: [f64; 3]| gradient[0].abs() * by[0] + gradient[1].abs() * by[1] + gradient[2].abs() * by[2];
             let bend = 0.5 * (slope_of(surface.nearly.gradient(beyond)) - slope);
             let moved = weighed(by_ray);
-            let rounding = (ROUNDINGS * roundoff).max(NOISE) * (moved + slope.abs());
-            let is_near = value.abs() <= (slope.abs() + bend.abs() * off.abs()) * off.abs() + rounding;
-            let is_found = (value + (slope + bend * off) * off).abs() <= rounding;
-            if !(is_near || is_found) {
+            let rounding = ROUNDINGS * roundoff * moved + NOISE * (surface.nearly.weight(at) + slope.abs() * s.abs());
+            if value.abs() > (slope.abs() + bend.abs() * reach) * reach + rounding {
                 continue;
             }
-            let frame = self.frame.as_ref().map_or(0.0, |frame| {
-                frame.worth(gradient, origin, direction, t.to_f64()) / self.units.scale
-            });
+            let frame = self.frame.as_ref().map_or(0.0, |frame| frame.worth(gradient, origin, direction, t) / self.units.scale);
             let moved = moved + frame + inputs.iter().map(|input| input.0[number].value(at).abs()).sum::<f64>();
             // A slope that rounding changes by much, at the crossing or on the way to where it may as well be.
             let tilted = ROUNDINGS * roundoff * weighed(line.along.map(f64::abs));
