@@ -12,7 +12,7 @@ use core::ops::{Add, Div, Mul, Neg, Sub};
 ///
 /// - What it drops: a discriminant that is right to rounding. `B²` and `A C` grow with the square of the distance `d`,
 ///   so crossings are off by about `u (d / r)²` of the radius `r` (`u` the unit roundoff) instead of `u (d / r)`.
-/// - How far it holds: in `f32` to `d / r` of a hundred or so, where crossings are off by a thousandth of the radius. At
+/// - How far it holds: in `f32` to `d / r` of a hundred or so, where crossings are off by some thousandths of the radius. At
 ///   a thousand radii one hit or miss in thirty is wrong, at ten thousand one in three.
 /// - What it saves: about half the arithmetic of a sphere, more of a cone.
 ///

@@ -7,7 +7,7 @@ use gsdf_tests::shape::KINDS;
 use std::fs;
 
 /// Rays in each cell: ten million in all.
-const RAYS: u64 = 36_765;
+const RAYS: u64 = 36_901;
 
 #[test]
 fn every_cell_has_its_rows_and_no_row_is_without_a_cell() {

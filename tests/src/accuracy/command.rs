@@ -24,7 +24,7 @@ use std::time::Instant;
 #[command(name = "accuracy", version)]
 pub struct Arguments {
     /// Rays in each cell of the table
-    #[arg(long, value_name = "N", default_value_t = 36_765, value_parser = value_parser!(u64).range(1..))]
+    #[arg(long, value_name = "N", default_value_t = 36_901, value_parser = value_parser!(u64).range(1..))]
     rays: u64,
     /// Kinds of leaves, separated by commas [default: all]
     #[arg(long, value_name = "NAMES", value_delimiter = ',', value_parser = PossibleValuesParser::new(KINDS))]

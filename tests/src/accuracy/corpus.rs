@@ -90,6 +90,7 @@ impl Corpus {
         let name = KINDS[leaf];
         match self {
             Self::Inside if leaf >= SOLIDS => Some("has no inside"),
+            Self::Inside if name == "half-space" => Some("holds the origin of every second ray of the other corpora"),
             Self::NearlyParallel | Self::Parallel if name == "sphere" => Some("has no straight line to be parallel to"),
             Self::Apex if !TIPPED.contains(&name) => Some("has no apex"),
             Self::Edge if SMOOTH.contains(&name) || name == "nappe" => Some("has no edge"),

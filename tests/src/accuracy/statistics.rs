@@ -11,8 +11,7 @@ const BUCKETS: usize = 1024;
 pub struct Statistics {
     /// The rays.
     pub rays: u64,
-    /// Those whose hit or miss is wrong, or that have a crossing at infinity where there is one, or the reverse; and the
-    /// number of the first of them.
+    /// Those whose hit or miss is wrong, or that have a crossing at infinity where there is one, or the reverse.
     pub wrong: u64,
     /// The ray that is wrong and has the least number.
     pub first_wrong: Option<u64>,
@@ -125,8 +124,10 @@ mod tests {
     #[test]
     fn joining_does_not_depend_on_the_order() {
         let one = |error: f64, ray: u64| {
-            let mut statistics = Statistics::default();
-            statistics.rays = 1;
+            let mut statistics = Statistics {
+                rays: 1,
+                ..Statistics::default()
+            };
             statistics.count(error);
             statistics.count_wrong(ray);
             statistics.most.see(Worst { error, ray });
