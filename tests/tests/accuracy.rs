@@ -20,7 +20,10 @@ fn every_cell_has_its_rows_and_no_row_is_without_a_cell() {
     }
     // What has no rays says why.
     let missing = |leaf: usize| Corpus::ALL.iter().filter(move |corpus| corpus.missing(leaf).is_some()).count();
-    assert_eq!(Cell::all().count() + (0..KINDS.len()).map(missing).sum::<usize>(), KINDS.len() * Corpus::ALL.len());
+    assert_eq!(
+        Cell::all().count() + (0..KINDS.len()).map(missing).sum::<usize>(),
+        KINDS.len() * Corpus::ALL.len()
+    );
 }
 
 #[test]
@@ -73,7 +76,11 @@ fn the_fast_reference_is_the_exact_one() {
 /// A facet of the exact reference is a little thick, by a share of this.
 fn reference_scale(trial: &gsdf_tests::accuracy::Trial) -> f64 {
     let speed = trial.direction.as_dvec3().length();
-    if trial.shape.is_facet() { 1e5 * trial.shape.extent() / speed } else { 0.0 }
+    if trial.shape.is_facet() {
+        1e5 * trial.shape.extent() / speed
+    } else {
+        0.0
+    }
 }
 
 /// The chart in the library's documentation is the one this source draws: `accuracy --chart

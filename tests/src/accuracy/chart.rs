@@ -38,7 +38,9 @@ fn exhibits() -> [(&'static str, Shape); 3] {
 
 /// The distances, in radii: four in each octave from 1 to 1e7.
 fn distances() -> impl Iterator<Item = f64> {
-    (0..=93_i32).map(|step| (f64::from(step) / 4.0).exp2()).filter(|distance| *distance <= 1e7)
+    (0..=93_i32)
+        .map(|step| (f64::from(step) / 4.0).exp2())
+        .filter(|distance| *distance <= 1e7)
 }
 
 /// For each distance, the error of the first crossing that one ray in a hundred exceeds, in radii; a ray that should hit
@@ -63,9 +65,13 @@ fn errors(shape: &Shape, arithmetic: Arithmetic) -> Vec<(f64, f64)> {
                 origin,
                 direction,
             };
-            let truth = reference.swift(origin, direction).unwrap_or_else(|| reference.slow(origin, direction));
+            let truth = reference
+                .swift(origin, direction)
+                .unwrap_or_else(|| reference.slow(origin, direction));
             let Some(t) = truth.and_then(|[enter, _]| enter) else { continue };
-            let off = trial.computed(&leaf, arithmetic).map_or(distance, |[enter, _]| t.distance_to(enter).abs());
+            let off = trial
+                .computed(&leaf, arithmetic)
+                .map_or(distance, |[enter, _]| t.distance_to(enter).abs());
             errors.push(off.min(distance));
         }
         errors.sort_by(f64::total_cmp);
@@ -109,9 +115,10 @@ pub fn svg() -> Result<String, Box<dyn Error>> {
                 (Arithmetic::Double, RGBColor(20, 130, 60)),
             ] {
                 let line = LineSeries::new(errors(shape, arithmetic), colour.stroke_width(2));
-                chart.draw_series(line)?.label(arithmetic.name()).legend(move |(x, y)| {
-                    PathElement::new(vec![(x, y), (x + 16, y)], colour.stroke_width(2))
-                });
+                chart
+                    .draw_series(line)?
+                    .label(arithmetic.name())
+                    .legend(move |(x, y)| PathElement::new(vec![(x, y), (x + 16, y)], colour.stroke_width(2)));
             }
             chart
                 .configure_series_labels()

@@ -104,7 +104,13 @@ impl Arguments {
             bar.inc(1);
             if (number + 1) % CHECKPOINT == 0 {
                 let (seconds, count) = (start.elapsed().as_secs(), breaches.len());
-                bar.suspend(|| eprintln!("checkpoint: {} of {} cells, {rays} rays, {seconds} s, {count} breaches", number + 1, cells.len()));
+                bar.suspend(|| {
+                    eprintln!(
+                        "checkpoint: {} of {} cells, {rays} rays, {seconds} s, {count} breaches",
+                        number + 1,
+                        cells.len()
+                    )
+                });
             }
         }
         bar.finish_and_clear();
@@ -115,7 +121,12 @@ impl Arguments {
             writeln!(out, "BREACH {breach}")?;
         }
         let seconds = start.elapsed().as_secs();
-        writeln!(out, "{rays} rays in {} cells, {seconds} s: {} breaches", cells.len(), breaches.len())?;
+        writeln!(
+            out,
+            "{rays} rays in {} cells, {seconds} s: {} breaches",
+            cells.len(),
+            breaches.len()
+        )?;
         if let Some(record) = &mut record {
             record.flush()?;
         }
@@ -145,7 +156,14 @@ fn missing(leaves: &[String], corpora: &[String]) -> Vec<String> {
     let pairs = (0..KINDS.len()).flat_map(|leaf| Corpus::ALL.iter().map(move |&corpus| (leaf, corpus)));
     pairs
         .filter(|&(leaf, corpus)| asked(leaves, KINDS[leaf]) && asked(corpora, corpus.name()))
-        .filter_map(|(leaf, corpus)| Some(format!("{:16} {:16} none: it {}", KINDS[leaf], corpus.name(), corpus.missing(leaf)?)))
+        .filter_map(|(leaf, corpus)| {
+            Some(format!(
+                "{:16} {:16} none: it {}",
+                KINDS[leaf],
+                corpus.name(),
+                corpus.missing(leaf)?
+            ))
+        })
         .collect()
 }
 
@@ -211,7 +229,10 @@ fn replay(cell: Cell, ray: u64) -> Result<(), Box<dyn Error>> {
             let (error, roundoff) = (t.distance_to(found), arithmetic.roundoff());
             let condition = reference.condition(line, t, found, roundoff);
             let (ulps, roundings) = (error / arithmetic.ulp(t.to_f64()), error.abs() / condition / roundoff);
-            writeln!(out, "  {found:e} is off by {error:e}, {ulps:.3} ulp, {roundings:.3} u * {condition:e}")?;
+            writeln!(
+                out,
+                "  {found:e} is off by {error:e}, {ulps:.3} ulp, {roundings:.3} u * {condition:e}"
+            )?;
         }
     }
     Ok(())
@@ -229,7 +250,12 @@ mod tests {
 
     #[test]
     fn nonsense_is_refused() {
-        for nonsense in [&["--rays", "0"][..], &["--leaf", "teapot"], &["--corpus", "x"], &["--replay", "1", "--chart", "a.svg"]] {
+        for nonsense in [
+            &["--rays", "0"][..],
+            &["--leaf", "teapot"],
+            &["--corpus", "x"],
+            &["--replay", "1", "--chart", "a.svg"],
+        ] {
             let arguments = ["accuracy"].iter().chain(nonsense);
             assert!(Arguments::try_parse_from(arguments).is_err(), "{nonsense:?}");
         }

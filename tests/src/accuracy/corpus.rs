@@ -207,7 +207,11 @@ impl Target {
             }
             Corpus::NearlyParallel | Corpus::Parallel => self.parallel(rng, distance),
             Corpus::Apex | Corpus::Edge => {
-                let tip = if self.corpus == Corpus::Apex { self.apex(rng) } else { self.edge(rng) };
+                let tip = if self.corpus == Corpus::Apex {
+                    self.apex(rng)
+                } else {
+                    self.edge(rng)
+                };
                 if rng.random_range(0..4) == 0 {
                     // In steps of so few digits that the ray goes through the very point, if that is one of `f32`.
                     let step = Vec3::from_array(core::array::from_fn(|_| rng.random_range(-64_i16..=64).into()));
@@ -319,7 +323,10 @@ impl Target {
             return (origin.as_vec3(), direction.as_vec3());
         };
         let matrix = matrix(pose);
-        ((matrix * origin + pose.origin().as_dvec3()).as_vec3(), (matrix * direction).as_vec3())
+        (
+            (matrix * origin + pose.origin().as_dvec3()).as_vec3(),
+            (matrix * direction).as_vec3(),
+        )
     }
 }
 
@@ -364,7 +371,12 @@ fn flat_quad<R: Rng>(rng: &mut R, size: f64) -> Shape {
     let (point, first, second) = (steps(200), steps(63), steps(63));
     let mut share = || rng.random_range(1_i8..=4).into();
     let (third, fourth): (f32, f32) = (share(), share());
-    let corners = [point, point + first * 2.0, point + first * 2.0 + second * third, point + second * fourth];
+    let corners = [
+        point,
+        point + first * 2.0,
+        point + first * 2.0 + second * third,
+        point + second * fourth,
+    ];
     Shape::Quad {
         corners: corners.map(|corner| corner * unit_of_corners),
     }
@@ -406,7 +418,11 @@ fn moved(shape: Shape, by: DVec3) -> Shape {
 /// A cone with a half-angle near none or near a right one.
 fn with_angle<R: Rng>(rng: &mut R, shape: Shape) -> Shape {
     let small = log_uniform(rng, 1e-4, core::f64::consts::FRAC_PI_4);
-    let angle = if rng.random() { small } else { core::f64::consts::FRAC_PI_2 - small };
+    let angle = if rng.random() {
+        small
+    } else {
+        core::f64::consts::FRAC_PI_2 - small
+    };
     let mut shape = shape;
     match &mut shape {
         Shape::Nappe { radius, height, .. } | Shape::SolidAngle { radius, height, .. } => {

@@ -217,10 +217,18 @@ impl View<'_> {
             if condition <= WELL_CONDITIONED * t.to_f64().abs() {
                 statistics.most.see(Worst { error: ulps, ray });
             }
-            let roundings = |condition: f64| if error == 0.0 { 0.0 } else { error / (arithmetic.roundoff() * condition) };
+            let roundings = |condition: f64| {
+                if error == 0.0 {
+                    0.0
+                } else {
+                    error / (arithmetic.roundoff() * condition)
+                }
+            };
             // The condition is no less than the ray's share of it: what is below the largest so far need not be known.
             if roundings(condition) > self.floors.get(arithmetic as usize) {
-                let condition = self.reference.condition((trial.origin, trial.direction), t, found, arithmetic.roundoff());
+                let condition = self
+                    .reference
+                    .condition((trial.origin, trial.direction), t, found, arithmetic.roundoff());
                 let worst = roundings(condition);
                 statistics.conditioned.see(Worst { error: worst, ray });
                 self.floors.raise(arithmetic as usize, worst);

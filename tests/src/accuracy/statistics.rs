@@ -76,7 +76,11 @@ impl Statistics {
         for (part, &count) in self.counts.iter().enumerate().rev() {
             above += u64::from(count);
             if above * 100 > crossings {
-                return if part == 0 { 0.0 } else { (f64::from(part as i32 + 1 + LOWEST * PARTS) / f64::from(PARTS)).exp2() };
+                return if part == 0 {
+                    0.0
+                } else {
+                    (f64::from(part as i32 + 1 + LOWEST * PARTS) / f64::from(PARTS)).exp2()
+                };
             }
         }
         0.0
@@ -135,7 +139,10 @@ mod tests {
         };
         let (a, b) = (one(1.0, 7), one(1.0, 3));
         let (left, right) = (a.clone().joined(&b), b.joined(&a));
-        assert_eq!((left.most, left.first_wrong, left.rays), (right.most, right.first_wrong, right.rays));
+        assert_eq!(
+            (left.most, left.first_wrong, left.rays),
+            (right.most, right.first_wrong, right.rays)
+        );
         assert_eq!(left.most.ray, 3);
     }
 }

@@ -43,7 +43,10 @@ pub fn strays() -> Vec<String> {
         })
         .collect();
     let is_stray = |row: &&super::rows::Row| !known.contains(&(row.0, row.1, row.2));
-    ROWS.iter().filter(is_stray).map(|row| format!("{} {} {}", row.0, row.1, row.2)).collect()
+    ROWS.iter()
+        .filter(is_stray)
+        .map(|row| format!("{} {} {}", row.0, row.1, row.2))
+        .collect()
 }
 
 impl Allowed {
@@ -60,7 +63,10 @@ impl Allowed {
         let mut breaches = Vec::new();
         if found.wrong as f64 > self.wrong_of(found.rays) {
             let ray = found.first_wrong.unwrap_or_default();
-            breaches.push((format!("{} of {} rays wrong, allowed {:e}", found.wrong, found.rays, self.wrong), ray));
+            breaches.push((
+                format!("{} of {} rays wrong, allowed {:e}", found.wrong, found.rays, self.wrong),
+                ray,
+            ));
         }
         if found.p99() > self.p99 {
             breaches.push((format!("p99 {:e} ulp, allowed {:e}", found.p99(), self.p99), found.most.ray));

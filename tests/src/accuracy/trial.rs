@@ -118,7 +118,10 @@ impl Reference {
             None => Solid::new(&posed(shape.exact(0.0), pose.as_ref()), center, reach),
         };
         if let Some(pose) = &pose {
-            doubled = doubled.in_frame(pose.to_local().map(|row| row.as_dvec3().to_array()), pose.origin().as_dvec3().to_array());
+            doubled = doubled.in_frame(
+                pose.to_local().map(|row| row.as_dvec3().to_array()),
+                pose.origin().as_dvec3().to_array(),
+            );
         }
         Self {
             shape,
@@ -165,19 +168,23 @@ impl Reference {
         let mut values = Vec::new();
         let mut shape = self.shape;
         shape.for_each_number(|number| values.push(*number));
-        let of_shape = values.iter().enumerate().filter(|(_, value)| **value != 0.0).map(|(index, &value)| {
-            let (less, more) = (value * (1.0 - STEP), value * (1.0 + STEP));
-            let with = |number: f32| {
-                let (mut shape, mut at) = (self.shape, 0);
-                shape.for_each_number(|old| {
-                    *old = if at == index { number } else { *old };
-                    at += 1;
-                });
-                posed(surfaces(&shape), self.pose.as_ref())
-            };
-            let step = f64::from(more) - f64::from(less);
-            self.doubled.input(&with(less), &with(more), step, value.into())
-        });
+        let of_shape = values
+            .iter()
+            .enumerate()
+            .filter(|(_, value)| **value != 0.0)
+            .map(|(index, &value)| {
+                let (less, more) = (value * (1.0 - STEP), value * (1.0 + STEP));
+                let with = |number: f32| {
+                    let (mut shape, mut at) = (self.shape, 0);
+                    shape.for_each_number(|old| {
+                        *old = if at == index { number } else { *old };
+                        at += 1;
+                    });
+                    posed(surfaces(&shape), self.pose.as_ref())
+                };
+                let step = f64::from(more) - f64::from(less);
+                self.doubled.input(&with(less), &with(more), step, value.into())
+            });
         of_shape.collect()
     }
 }

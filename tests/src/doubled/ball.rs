@@ -34,7 +34,11 @@ impl Ball {
         Self {
             middle,
             // What is below the range is lost from a product of numbers, but not from one with zero.
-            error: if own + error == 0.0 && middle.high == 0.0 { 0.0 } else { own + error * (1.0 + ROUNDED_UP) },
+            error: if own + error == 0.0 && middle.high == 0.0 {
+                0.0
+            } else {
+                own + error * (1.0 + ROUNDED_UP)
+            },
         }
     }
 
@@ -97,7 +101,10 @@ impl Ball {
     pub fn quotient(self, divisor: Self) -> Self {
         let middle = self.middle / divisor.middle;
         let least = divisor.middle.high.abs() - divisor.error;
-        Self::rounded(middle, (self.error + middle.high.abs() * divisor.error) / least * (1.0 + ROUNDED_UP))
+        Self::rounded(
+            middle,
+            (self.error + middle.high.abs() * divisor.error) / least * (1.0 + ROUNDED_UP),
+        )
     }
 
     /// The square root of a number that is certainly positive.

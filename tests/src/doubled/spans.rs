@@ -96,7 +96,11 @@ impl Solid {
     #[must_use]
     pub fn along(&self, origin: Vec3, direction: Vec3) -> Option<Option<Ends>> {
         let line = self.sightline(origin, direction);
-        let restricted: Vec<Along> = self.surfaces.iter().map(|surface| Along::new(surface, &line)).collect::<Option<_>>()?;
+        let restricted: Vec<Along> = self
+            .surfaces
+            .iter()
+            .map(|surface| Along::new(surface, &line))
+            .collect::<Option<_>>()?;
         if let Some(plane) = self.plane {
             return self.through_plane(plane, line, &restricted);
         }
@@ -152,18 +156,31 @@ impl Solid {
         let line = self.sightline(ray.0, ray.1);
         let (s, off) = (-t.distance_to(line.nearest) / line.step, off / line.step);
         let here = self.condition_at(ray, &line, s, off.abs(), roundoff, inputs);
-        let there = if off == 0.0 { 0.0 } else { self.condition_at(ray, &line, s + off, 0.0, roundoff, inputs) };
+        let there = if off == 0.0 {
+            0.0
+        } else {
+            self.condition_at(ray, &line, s + off, 0.0, roundoff, inputs)
+        };
         here.max(there).max(t.to_f64().abs())
     }
 
     /// The worst condition of the surfaces that are crossed within `reach` of a place, or within rounding there.
-    fn condition_at(&self, (origin, direction): (Vec3, Vec3), line: &Sightline, s: f64, reach: f64, roundoff: f64, inputs: &[Input]) -> f64 {
+    fn condition_at(
+        &self,
+        (origin, direction): (Vec3, Vec3),
+        line: &Sightline,
+        s: f64,
+        reach: f64,
+        roundoff: f64,
+        inputs: &[Input],
+    ) -> f64 {
         /// What `f64` may lose of a polynomial's value, relative to its terms.
         const NOISE: f64 = 1e-15;
         /// How many rounding errors a surface may be off.
         const ROUNDINGS: f64 = 32.0;
         let t = line.nearest + line.step * s;
         let at = [0, 1, 2].map(|axis| line.start[axis].to_f64() + s * line.along[axis]);
+        let travelled = [0, 1, 2].map(|axis| line.start[axis].to_f64().abs() + (s * line.along[axis]).abs());
         let beyond = [0, 1, 2].map(|axis| at[axis] + line.along[axis]);
         let slope_of = |gradient: [f64; 3]| gradient[0] * line.along[0] + gradient[1] * line.along[1] + gradient[2] * line.along[2];
         let by_ray = [0, 1, 2].map(|axis| {
@@ -177,11 +194,14 @@ impl Solid {
             let weighed = |by: [f64; 3]| gradient[0].abs() * by[0] + gradient[1].abs() * by[1] + gradient[2].abs() * by[2];
             let bend = 0.5 * (slope_of(surface.nearly.gradient(beyond)) - slope);
             let moved = weighed(by_ray);
-            let rounding = ROUNDINGS * roundoff * moved + NOISE * (surface.nearly.weight(at) + slope.abs() * s.abs());
+            let rounding = ROUNDINGS * roundoff * moved + NOISE * (surface.nearly.weight(at) + weighed(travelled));
             if value.abs() > (slope.abs() + bend.abs() * reach) * reach + rounding {
                 continue;
             }
-            let frame = self.frame.as_ref().map_or(0.0, |frame| frame.worth(gradient, origin, direction, t) / self.units.scale);
+            let frame = self
+                .frame
+                .as_ref()
+                .map_or(0.0, |frame| frame.worth(gradient, origin, direction, t) / self.units.scale);
             let moved = moved + frame + inputs.iter().map(|input| input.0[number].value(at).abs()).sum::<f64>();
             // A slope that rounding changes by much, at the crossing or on the way to where it may as well be.
             let tilted = ROUNDINGS * roundoff * weighed(line.along.map(f64::abs));

@@ -11,9 +11,9 @@ mod points;
 mod polyhedron;
 pub mod profile;
 
+use crate::reference::Expr;
 pub use closest::to_triangles;
 pub use draw::{across, log_uniform, unit};
-use crate::reference::Expr;
 use facet::Facet;
 use glam::Vec3;
 use gsdf_nostd::{
