@@ -168,25 +168,29 @@ impl Reference {
         let mut values = Vec::new();
         let mut shape = self.shape;
         shape.for_each_number(|number| values.push(*number));
-        let of_shape = values.iter().enumerate().filter(|(_, value)| **value != 0.0).filter_map(|(index, &value)| {
-            let with = |number: f32| {
-                let (mut shape, mut at) = (self.shape, 0);
-                shape.for_each_number(|old| {
-                    *old = if at == index { number } else { *old };
-                    at += 1;
-                });
-                shape
-            };
-            // One of two balls that hardly reaches out of the other must not be lost in it.
-            let moved = |number: f32| {
-                let is_lost = matches!(self.shape, Shape::RoundedCone { .. }) && with(number).leaf().is_err();
-                if is_lost { value } else { number }
-            };
-            let (less, more) = (moved(value * (1.0 - STEP)), moved(value * (1.0 + STEP)));
-            let solid = |number: f32| posed(surfaces(&with(number)), self.pose.as_ref());
-            let step = f64::from(more) - f64::from(less);
-            (step != 0.0).then(|| self.doubled.input(&solid(less), &solid(more), step, value.into()))
-        });
+        let of_shape = values
+            .iter()
+            .enumerate()
+            .filter(|(_, value)| **value != 0.0)
+            .filter_map(|(index, &value)| {
+                let with = |number: f32| {
+                    let (mut shape, mut at) = (self.shape, 0);
+                    shape.for_each_number(|old| {
+                        *old = if at == index { number } else { *old };
+                        at += 1;
+                    });
+                    shape
+                };
+                // One of two balls that hardly reaches out of the other must not be lost in it.
+                let moved = |number: f32| {
+                    let is_lost = matches!(self.shape, Shape::RoundedCone { .. }) && with(number).leaf().is_err();
+                    if is_lost { value } else { number }
+                };
+                let (less, more) = (moved(value * (1.0 - STEP)), moved(value * (1.0 + STEP)));
+                let solid = |number: f32| posed(surfaces(&with(number)), self.pose.as_ref());
+                let step = f64::from(more) - f64::from(less);
+                (step != 0.0).then(|| self.doubled.input(&solid(less), &solid(more), step, value.into()))
+            });
         of_shape.collect()
     }
 }
