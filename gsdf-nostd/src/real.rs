@@ -51,6 +51,8 @@ pub trait Real: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Se
     type Mask: Mask;
     /// How many numbers a value holds.
     const LANES: usize;
+    /// Whether formulas go out of their way so that nothing large cancels; only [`Plain`](crate::Plain) does without.
+    const ROBUST: bool = true;
 
     /// The arithmetic of one lane: `f32` for `f32` and its packets, `f64` for `f64`.
     type Scalar: Lane;

@@ -90,7 +90,11 @@ impl Unit {
     /// the error are in this unit.
     pub const fn ray(self, origin: Vec3, direction: Vec3) -> Result<(Ray, Self), RayError> {
         let speed = max_norm(direction);
-        let exponent = if speed.is_finite() && speed > 0.0 { exponent_of(speed) } else { 0 };
+        let exponent = if speed.is_finite() && speed > 0.0 {
+            exponent_of(speed)
+        } else {
+            0_i32
+        };
         let turned = Self { exponent }.point(direction);
         match Ray::new(self.point(origin), turned) {
             Ok(ray) => Ok((

@@ -1,9 +1,11 @@
 //! What holds gsdf to its promises: an exact reference, generators of solids and rays, and the properties built on
 //! them.
 
+pub mod accuracy;
 pub mod arrangements;
 pub mod conformance;
 pub mod corpus;
+pub mod doubled;
 pub mod fuzzed;
 pub mod golden;
 pub mod laws;

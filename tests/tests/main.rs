@@ -1,6 +1,7 @@
 //! Every property, in one program: what is generic is compiled for all of them once, and not once per file.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
+mod accuracy;
 mod algebra;
 mod bad_input;
 mod bad_programs;
@@ -22,6 +23,7 @@ mod leaves;
 mod marcher;
 mod membership;
 mod packets;
+mod plain;
 mod programs;
 mod references;
 mod regressions;

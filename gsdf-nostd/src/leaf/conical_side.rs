@@ -79,8 +79,12 @@ impl<T: Real> SeenCone<T> {
     pub(super) fn span(&self, profile: &Profile<T>, toward: &Toward<T>) -> Span<T> {
         let zero = self.c.splat_like(0.0);
         let infinity = zero.splat_like(f32::INFINITY);
-        let shift = -(self.w.dot(toward.v) * toward.per_vv);
-        let near = self.w + toward.v.scaled(shift);
+        let (shift, near) = if T::ROBUST {
+            let shift = -(self.w.dot(toward.v) * toward.per_vv);
+            (shift, self.w + toward.v.scaled(shift))
+        } else {
+            (zero, self.w)
+        };
 
         let w = near.cross(profile.axis);
         let v = toward.v.cross(profile.axis);
@@ -91,10 +95,14 @@ impl<T: Real> SeenCone<T> {
         let a = across2 - growth2;
         let b = k2 * w.dot(v) - growth * radius;
         let c = k2 * w.norm_squared() - radius.squared();
-        let skew = v.scaled(radius) - w.scaled(growth);
-        let cancelled = k2 * (skew.norm_squared() - k2 * w.cross(v).norm_squared());
         let plain = b.squared() - a * c;
-        let d = T::select((a * c).le(zero), plain, cancelled);
+        let d = if T::ROBUST {
+            let skew = v.scaled(radius) - w.scaled(growth);
+            let cancelled = k2 * (skew.norm_squared() - k2 * w.cross(v).norm_squared());
+            T::select((a * c).le(zero), plain, cancelled)
+        } else {
+            plain
+        };
 
         let still = k2 * profile.axis.norm_squared() * toward.vv * zero.splat_like(PARALLEL_TILT_SQUARED);
         let constant = (across2 + growth2).lt(still);

@@ -132,9 +132,13 @@ impl<T: Real> SeenSide<T> {
         let parallel = a.lt(toward.vv * axis.norm_squared() * a.splat_like(PARALLEL_TILT_SQUARED));
         let per_a = a.splat_like(1.0) / a;
         let b = self.w.dot(v);
-        let l = self.w - v.scaled(b * per_a);
-        // On the side the roots are 0 and -2B/A.
-        let d = T::select(self.c.eq(zero), b.squared(), a * (self.r2 - l.norm_squared()));
+        let d = if T::ROBUST {
+            let l = self.w - v.scaled(b * per_a);
+            // On the side the roots are 0 and -2B/A.
+            T::select(self.c.eq(zero), b.squared(), a * (self.r2 - l.norm_squared()))
+        } else {
+            b.squared() - a * self.c
+        };
         let inside = self.c.lt(zero);
         let met = (parallel & inside) | (!parallel & zero.lt(d));
         if nowhere(met) {

@@ -104,11 +104,15 @@ impl Solid for Sphere {
     fn span<T: Real>(&self, seen: &Self::Seen<T>, toward: &Toward<T>) -> Span<T> {
         let zero = seen.c.splat_like(0.0);
         let b = seen.w.dot(toward.v);
-        let l = seen.w - toward.v.scaled(b * toward.per_vv);
-        let radius = seen.c.splat_like(self.radius);
-        let away = toward.vv * (radius.squared() - l.norm_squared());
-        // On the surface the roots are 0 and -2B/A.
-        let d = T::select(seen.c.eq(zero), b.squared(), away);
+        let d = if T::ROBUST {
+            let l = seen.w - toward.v.scaled(b * toward.per_vv);
+            let radius = seen.c.splat_like(self.radius);
+            let away = toward.vv * (radius.squared() - l.norm_squared());
+            // On the surface the roots are 0 and -2B/A.
+            T::select(seen.c.eq(zero), b.squared(), away)
+        } else {
+            b.squared() - toward.vv * seen.c
+        };
         let met = zero.lt(d);
         if nowhere(met) {
             return Span::empty_like(zero);

@@ -60,6 +60,11 @@ impl Facet<'_> {
         Expr::And(walls)
     }
 
+    /// The points before the plane, and those within the edges.
+    pub(super) fn plane_and_outline(&self) -> (Expr, Expr) {
+        (self.half_space(&self.normal(), &Exact::ZERO), Expr::And(self.outline(0.0)))
+    }
+
     /// Whether a line goes through whatever way the facet's corners are moved by less than `offset`: within edges
     /// moved inward it is more than that before the facet, and more than that behind it.
     pub(super) fn is_pierced(&self, origin: Vec3, direction: Vec3, offset: f64) -> bool {

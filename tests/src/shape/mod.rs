@@ -6,10 +6,12 @@ mod draw;
 mod exact;
 mod facet;
 mod holds;
+mod numbers;
 mod points;
 mod polyhedron;
 pub mod profile;
 
+use crate::reference::Expr;
 pub use closest::to_triangles;
 pub use draw::{across, log_uniform, unit};
 use facet::Facet;
@@ -231,6 +233,13 @@ impl Shape {
     #[must_use]
     pub fn is_pierced(&self, origin: Vec3, direction: Vec3, offset: f64) -> bool {
         self.facet().is_some_and(|facet| facet.is_pierced(origin, direction, offset))
+    }
+
+    /// A facet as the points before its plane, and the outline that its crossings lie within; `None` for what has an
+    /// inside.
+    #[must_use]
+    pub fn plane_and_outline(&self) -> Option<(Expr, Expr)> {
+        self.facet().map(|facet| facet.plane_and_outline())
     }
 
     /// The radii, or else how far the solid reaches from its points.

@@ -1,0 +1,238 @@
+//! Measures a cell of the table: many rays of one corpus at one kind of leaf, in every arithmetic.
+
+use super::corpus::{Corpus, Target};
+use super::statistics::{Statistics, Worst};
+use super::trial::{Arithmetic, Reference, Trial};
+use crate::doubled::{Ball, Ends};
+use crate::shape::KINDS;
+use core::ops::Range;
+use core::sync::atomic::{AtomicU64, Ordering};
+use gsdf_nostd::Leaf;
+use rand::SeedableRng;
+use rand_pcg::Pcg64;
+use rayon::prelude::*;
+
+/// How many rays in succession are aimed at one solid.
+const RAYS_AT_ONE: u64 = 128;
+
+/// How much larger than `|t|` the condition of a crossing may be, as far as it is the ray's, for its error to count in
+/// units in the last place.
+pub const WELL_CONDITIONED: f64 = 64.0;
+
+/// The rays of one corpus at one kind of leaf.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct Cell {
+    /// The number of the kind in [`KINDS`].
+    pub leaf: usize,
+    /// The corpus.
+    pub corpus: Corpus,
+}
+
+/// What was measured in a cell.
+#[derive(Clone, Debug, Default)]
+pub struct Measured {
+    /// For each arithmetic, in the order of [`Arithmetic::ALL`].
+    pub statistics: [Statistics; 3],
+    /// The rays that the exact reference had to be asked about.
+    pub asked: u64,
+}
+
+impl Measured {
+    fn joined(self, other: &Self) -> Self {
+        let [a, b, c] = self.statistics;
+        let [x, y, z] = &other.statistics;
+        Self {
+            statistics: [a.joined(x), b.joined(y), c.joined(z)],
+            asked: self.asked + other.asked,
+        }
+    }
+}
+
+/// Whether plain formulas differ from robust ones at this kind of leaf: it has a side that is not flat.
+#[must_use]
+pub fn is_curved(leaf: usize) -> bool {
+    const CURVED: [&str; 10] = [
+        "sphere",
+        "cylinder",
+        "nappe",
+        "capped cylinder",
+        "cone",
+        "capped cone",
+        "capsule",
+        "rhombus",
+        "rounded cone",
+        "solid angle",
+    ];
+    CURVED.contains(&KINDS[leaf])
+}
+
+/// The largest errors of any crossing so far, by arithmetic, shared between threads: smaller ones need no condition.
+#[derive(Debug)]
+struct Floors([AtomicU64; 3]);
+
+impl Floors {
+    /// The bits of positive numbers are ordered as the numbers are.
+    fn raise(&self, arithmetic: usize, error: f64) {
+        self.0[arithmetic].fetch_max(error.to_bits(), Ordering::Relaxed);
+    }
+
+    fn get(&self, arithmetic: usize) -> f64 {
+        f64::from_bits(self.0[arithmetic].load(Ordering::Relaxed))
+    }
+}
+
+impl Cell {
+    /// All cells that have rays.
+    pub fn all() -> impl Iterator<Item = Self> {
+        let cells = (0..KINDS.len()).flat_map(|leaf| Corpus::ALL.iter().map(move |&corpus| Self { leaf, corpus }));
+        cells.filter(|cell| cell.corpus.missing(cell.leaf).is_none())
+    }
+
+    /// The arithmetics that have a row of their own.
+    pub fn arithmetics(self) -> impl Iterator<Item = Arithmetic> {
+        Arithmetic::ALL
+            .into_iter()
+            .filter(move |&arithmetic| arithmetic != Arithmetic::Plain || is_curved(self.leaf))
+    }
+
+    /// The seed of one of the cell's targets or rays.
+    fn seed(self, number: u64) -> Pcg64 {
+        let cell = (self.leaf * Corpus::ALL.len() + self.corpus as usize) as u64;
+        let mut seed = [0; 32];
+        seed[..8].copy_from_slice(&cell.to_le_bytes());
+        seed[8..16].copy_from_slice(&number.to_le_bytes());
+        Pcg64::from_seed(seed)
+    }
+
+    fn target(self, ray: u64) -> Target {
+        // Targets have the odd numbers, rays the even ones.
+        Target::random(&mut self.seed(2 * (ray / RAYS_AT_ONE) + 1), self.leaf, self.corpus)
+    }
+
+    /// A ray by its number.
+    #[must_use]
+    pub fn trial(self, ray: u64) -> Trial {
+        self.target(ray).ray(&mut self.seed(2 * ray))
+    }
+
+    /// Measures rays by their numbers, on all threads. Errors, in units roundoff of the condition, below `floors` are
+    /// taken for these, which saves the computation of their condition.
+    #[must_use]
+    pub fn measure(self, rays: Range<u64>, floors: [f64; 3]) -> Measured {
+        let floors = Floors(floors.map(|floor| AtomicU64::new(floor.to_bits())));
+        let targets = rays.start / RAYS_AT_ONE..rays.end.div_ceil(RAYS_AT_ONE);
+        let measure = |target: u64| {
+            let first = target * RAYS_AT_ONE;
+            self.measure_at_one(first.max(rays.start)..(first + RAYS_AT_ONE).min(rays.end), &floors)
+        };
+        targets
+            .into_par_iter()
+            .map(measure)
+            .fold(Measured::default, |all, one| all.joined(&one))
+            .reduce(Measured::default, |all, one| all.joined(&one))
+    }
+
+    /// Measures rays at one and the same target.
+    fn measure_at_one(self, rays: Range<u64>, floors: &Floors) -> Measured {
+        let target = self.target(rays.start);
+        let view = View {
+            leaf: target.shape.leaf().expect("corpora make valid shapes"),
+            reference: Reference::new(target.shape, target.pose),
+            is_facet: target.shape.is_facet(),
+            floors,
+        };
+        let mut measured = Measured::default();
+        for ray in rays {
+            let trial = target.ray(&mut self.seed(2 * ray));
+            let (truth, was_asked) = view.truth(&trial);
+            measured.asked += u64::from(was_asked);
+            for arithmetic in self.arithmetics() {
+                view.compare(&mut measured.statistics[arithmetic as usize], &trial, ray, arithmetic, truth);
+            }
+        }
+        measured
+    }
+}
+
+/// A solid as the library has it, and as it is.
+struct View<'a> {
+    leaf: Leaf,
+    reference: Reference,
+    is_facet: bool,
+    floors: &'a Floors,
+}
+
+/// The true span, with the condition of each end, as far as it is the ray's.
+type Truth = Option<(Ends, [f64; 2])>;
+
+impl View<'_> {
+    /// The truth, and whether the exact reference was needed for it.
+    fn truth(&self, trial: &Trial) -> (Truth, bool) {
+        let with_conditions = |ends: Ends| {
+            let conditions = ends.map(|end| end.map_or(0.0, |t| self.reference.ray_condition((trial.origin, trial.direction), t)));
+            (ends, conditions)
+        };
+        if let Some(span) = self.reference.swift(trial.origin, trial.direction) {
+            let truth = span.map(with_conditions);
+            // A crossing must be known a hundred times better than the best arithmetic has it.
+            let is_sharp = truth.is_none_or(|(ends, conditions)| {
+                let known = |(end, condition): (&Option<Ball>, &f64)| {
+                    end.is_none_or(|t| t.error() <= f64::EPSILON / 256.0 * condition.min(f64::MAX))
+                };
+                ends.iter().zip(&conditions).all(known)
+            });
+            if is_sharp {
+                return (truth, false);
+            }
+        }
+        (self.reference.slow(trial.origin, trial.direction).map(with_conditions), true)
+    }
+
+    fn compare(&self, statistics: &mut Statistics, trial: &Trial, ray: u64, arithmetic: Arithmetic, truth: Truth) {
+        statistics.rays += 1;
+        let computed = trial.computed(&self.leaf, arithmetic);
+        let (Some(found), Some((ends, conditions))) = (computed, truth) else {
+            if computed.is_some() != truth.is_some() {
+                statistics.count_wrong(ray);
+            }
+            return;
+        };
+        // The exit of a facet is the next number after its entry, and is no crossing.
+        let ends_of_it = if self.is_facet { 1 } else { 2 };
+        for index in 0..ends_of_it {
+            let (found, condition) = (found[index], conditions[index]);
+            let Some(t) = ends[index].filter(|_| found.is_finite()) else {
+                if ends[index].is_some() || found.is_finite() {
+                    statistics.count_wrong(ray);
+                    return;
+                }
+                continue;
+            };
+            let error = t.distance_to(found).abs();
+            let ulps = error / arithmetic.ulp(t.to_f64());
+            // What is at the origin but for rounding has no last place.
+            if arithmetic.roundoff() * condition < t.to_f64().abs() {
+                statistics.count(ulps);
+            }
+            if condition <= WELL_CONDITIONED * t.to_f64().abs() {
+                statistics.most.see(Worst { error: ulps, ray });
+            }
+            let roundings = |condition: f64| {
+                if error == 0.0 {
+                    0.0
+                } else {
+                    error / (arithmetic.roundoff() * condition)
+                }
+            };
+            // The condition is no less than the ray's share of it: what is below the largest so far need not be known.
+            if roundings(condition) > self.floors.get(arithmetic as usize) {
+                let condition = self
+                    .reference
+                    .condition((trial.origin, trial.direction), t, found, arithmetic.roundoff());
+                let worst = roundings(condition);
+                statistics.conditioned.see(Worst { error: worst, ray });
+                self.floors.raise(arithmetic as usize, worst);
+            }
+        }
+    }
+}

@@ -1,0 +1,22 @@
+//! How accurate the library is, as a table: kinds of leaves, corpora of rays, and arithmetics.
+//!
+//! Every cell of the table has rows, one for each arithmetic, of what is allowed; rays by the thousand are measured against
+//! the fast reference ([`doubled`](crate::doubled)) or, where that cannot tell, the exact one. Rays have numbers, and
+//! any can be seen again by its cell and number.
+//!
+//! What is allowed is either derived, as the page `numerics` of the library's documentation has it, or four times the
+//! largest that was measured; that is recorded in a file of its own, `tests/accuracy.csv`, and never read by a test.
+
+pub mod chart;
+pub mod command;
+mod corpus;
+mod measure;
+mod rows;
+mod statistics;
+pub mod table;
+mod trial;
+
+pub use corpus::{Corpus, Target};
+pub use measure::{Cell, Measured, WELL_CONDITIONED, is_curved};
+pub use statistics::{Statistics, Worst};
+pub use trial::{Arithmetic, Reference, Trial};

@@ -1,0 +1,148 @@
+//! What is kept of the errors of many rays.
+
+/// The parts an octave of errors is counted in.
+const PARTS: i32 = 8;
+/// Errors are counted from 2^-6 units in the last place to 2^122.
+const LOWEST: i32 = -6;
+const BUCKETS: usize = 1024;
+
+/// The errors of one kind of leaf in one corpus and arithmetic.
+#[derive(Clone, Debug)]
+pub struct Statistics {
+    /// The rays.
+    pub rays: u64,
+    /// Those whose hit or miss is wrong, or that have a crossing at infinity where there is one, or the reverse.
+    pub wrong: u64,
+    /// The ray that is wrong and has the least number.
+    pub first_wrong: Option<u64>,
+    /// The largest error of a well-conditioned crossing, in units in the last place.
+    pub most: Worst,
+    /// The largest error of any crossing, in units roundoff of its condition.
+    pub conditioned: Worst,
+    /// The crossings measured, by their errors in units in the last place.
+    counts: Vec<u32>,
+}
+
+/// A largest error and the number of the ray that had it.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Worst {
+    /// The error.
+    pub error: f64,
+    /// The ray.
+    pub ray: u64,
+}
+
+impl Worst {
+    /// Takes the error of a ray into account.
+    pub fn see(&mut self, other: Self) {
+        // Where errors are equal the first ray, so that the outcome does not depend on the order.
+        if other.error > self.error || (other.error == self.error && other.ray < self.ray) {
+            *self = other;
+        }
+    }
+}
+
+impl Default for Statistics {
+    fn default() -> Self {
+        Self {
+            rays: 0,
+            wrong: 0,
+            first_wrong: None,
+            most: Worst::default(),
+            conditioned: Worst::default(),
+            counts: vec![0; BUCKETS],
+        }
+    }
+}
+
+impl Statistics {
+    /// Counts a crossing that is off by so many units in the last place.
+    pub fn count(&mut self, ulps: f64) {
+        let part = (ulps.log2() * f64::from(PARTS)).floor() - f64::from(LOWEST * PARTS);
+        self.counts[part.clamp(0.0, (BUCKETS - 1) as f64) as usize] += 1;
+    }
+
+    /// Counts a ray whose hit or miss is wrong.
+    pub fn count_wrong(&mut self, ray: u64) {
+        self.wrong += 1;
+        self.first_wrong = Some(self.first_wrong.map_or(ray, |first| first.min(ray)));
+    }
+
+    /// The error that one crossing in a hundred exceeds, rounded up to an eighth of an octave; 0 without crossings.
+    #[must_use]
+    pub fn p99(&self) -> f64 {
+        let crossings: u64 = self.counts.iter().map(|&count| u64::from(count)).sum();
+        let mut above = 0;
+        for (part, &count) in self.counts.iter().enumerate().rev() {
+            above += u64::from(count);
+            if above * 100 > crossings {
+                return if part == 0 {
+                    0.0
+                } else {
+                    (f64::from(part as i32 + 1 + LOWEST * PARTS) / f64::from(PARTS)).exp2()
+                };
+            }
+        }
+        0.0
+    }
+
+    /// The share of rays that are wrong.
+    #[must_use]
+    pub fn wrong_share(&self) -> f64 {
+        self.wrong as f64 / self.rays.max(1) as f64
+    }
+
+    /// The statistics of these rays and others.
+    #[must_use]
+    pub fn joined(mut self, other: &Self) -> Self {
+        self.rays += other.rays;
+        self.wrong += other.wrong;
+        self.first_wrong = [self.first_wrong, other.first_wrong].into_iter().flatten().min();
+        self.most.see(other.most);
+        self.conditioned.see(other.conditioned);
+        for (count, more) in self.counts.iter_mut().zip(&other.counts) {
+            *count += more;
+        }
+        self
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Statistics, Worst};
+
+    #[test]
+    fn one_in_a_hundred_is_above() {
+        let mut statistics = Statistics::default();
+        assert_eq!(statistics.p99(), 0.0);
+        for _ in 0..98 {
+            statistics.count(0.0);
+        }
+        statistics.count(3.0);
+        statistics.count(1e9);
+        // Of a hundred crossings the second largest, rounded up.
+        let p99 = statistics.p99();
+        assert!((3.0..3.3).contains(&p99), "{p99}");
+    }
+
+    #[test]
+    fn joining_does_not_depend_on_the_order() {
+        let one = |error: f64, ray: u64| {
+            let mut statistics = Statistics {
+                rays: 1,
+                ..Statistics::default()
+            };
+            statistics.count(error);
+            statistics.count_wrong(ray);
+            statistics.most.see(Worst { error, ray });
+            statistics
+        };
+        let (a, b) = (one(1.0, 7), one(1.0, 3));
+        let (left, right) = (a.clone().joined(&b), b.joined(&a));
+        assert_eq!(
+            (left.most, left.first_wrong, left.rays),
+            (right.most, right.first_wrong, right.rays)
+        );
+        assert_eq!(left.most.ray, 3);
+    }
+}
