@@ -29,3 +29,4 @@ mod references;
 mod regressions;
 mod scenes;
 mod shared_faces;
+mod units;

@@ -3,61 +3,95 @@
 use super::Shape;
 use glam::{DVec3, Vec3};
 
+/// The numbers a shape is given by.
+struct Numbers<'a> {
+    points: Vec<&'a mut Vec3>,
+    directions: Vec<&'a mut Vec3>,
+    /// Coordinates that stand alone, and sizes.
+    lengths: Vec<&'a mut f32>,
+}
+
+impl<'a> Numbers<'a> {
+    fn new(points: Vec<&'a mut Vec3>, directions: Vec<&'a mut Vec3>, lengths: Vec<&'a mut f32>) -> Self {
+        Self {
+            points,
+            directions,
+            lengths,
+        }
+    }
+}
+
 impl Shape {
     /// Calls `each` with every number the shape is given by, always in the same order.
     pub fn for_each_number(&mut self, mut each: impl FnMut(&mut f32)) {
-        let (points, sizes) = self.numbers();
-        for point in points {
-            each(&mut point.x);
-            each(&mut point.y);
-            each(&mut point.z);
+        let Numbers {
+            points,
+            directions,
+            lengths,
+        } = self.numbers();
+        for vector in points.into_iter().chain(directions) {
+            each(&mut vector.x);
+            each(&mut vector.y);
+            each(&mut vector.z);
         }
-        sizes.into_iter().for_each(each);
+        lengths.into_iter().for_each(each);
     }
 
-    /// The points and directions, and the other numbers.
-    fn numbers(&mut self) -> (Vec<&mut Vec3>, Vec<&mut f32>) {
+    /// The shape with each of its coordinates and lengths replaced; its directions have no unit.
+    #[must_use]
+    pub fn measured(mut self, length: impl Fn(f32) -> f32) -> Self {
+        let Numbers { points, lengths, .. } = self.numbers();
+        for point in points {
+            *point = point.map(&length);
+        }
+        for number in lengths {
+            *number = length(*number);
+        }
+        self
+    }
+
+    fn numbers(&mut self) -> Numbers<'_> {
         match self {
-            Self::HalfSpace { point, normal } => (vec![point, normal], vec![]),
-            Self::Sphere { center, radius } | Self::Octahedron { center, radius } => (vec![center], vec![radius]),
-            Self::Cylinder { point, axis, radius } => (vec![point, axis], vec![radius]),
+            Self::HalfSpace { point, normal } => Numbers::new(vec![point], vec![normal], vec![]),
+            Self::Sphere { center, radius } | Self::Octahedron { center, radius } => Numbers::new(vec![center], vec![], vec![radius]),
+            Self::Cylinder { point, axis, radius } => Numbers::new(vec![point], vec![axis], vec![radius]),
             Self::Nappe {
                 apex,
                 axis,
                 radius,
                 height,
-            } => (vec![apex, axis], vec![radius, height]),
-            Self::Cuboid { min, max } => (vec![min, max], vec![]),
-            Self::CappedCylinder { bottom, top, axis, radius } => (vec![bottom, top, axis], vec![radius]),
-            Self::Cone { apex, base, axis, radius } => (vec![apex, base, axis], vec![radius]),
+            } => Numbers::new(vec![apex], vec![axis], vec![radius, height]),
+            Self::Cuboid { min, max } => Numbers::new(vec![min, max], vec![], vec![]),
+            Self::CappedCylinder { bottom, top, axis, radius } => Numbers::new(vec![bottom, top], vec![axis], vec![radius]),
+            Self::Cone { apex, base, axis, radius } => Numbers::new(vec![apex, base], vec![axis], vec![radius]),
             Self::CappedCone {
                 bottom,
                 top,
                 axis,
                 bottom_radius,
                 top_radius,
-            } => (vec![bottom, top, axis], vec![bottom_radius, top_radius]),
-            Self::Capsule { a, b, radius } => (vec![a, b], vec![radius]),
-            Self::HexagonalPrism { bottom, top, apothem } => (vec![bottom], vec![top, apothem]),
-            Self::TriangularPrism { bottom, top, inradius } => (vec![bottom], vec![top, inradius]),
-            Self::Pyramid { base, half_width, height } => (vec![base], vec![half_width, height]),
+            } => Numbers::new(vec![bottom, top], vec![axis], vec![bottom_radius, top_radius]),
+            Self::Capsule { a, b, radius } => Numbers::new(vec![a, b], vec![], vec![radius]),
+            Self::HexagonalPrism { bottom, top, apothem } => Numbers::new(vec![bottom], vec![], vec![top, apothem]),
+            Self::TriangularPrism { bottom, top, inradius } => Numbers::new(vec![bottom], vec![], vec![top, inradius]),
+            Self::Pyramid { base, half_width, height } => Numbers::new(vec![base], vec![], vec![half_width, height]),
             Self::Rhombus {
                 bottom,
                 top,
                 half_x,
                 half_z,
                 rounding,
-            } => (vec![bottom], vec![top, half_x, half_z, rounding]),
-            Self::RoundedCone { a, b, a_radius, b_radius } => (vec![a, b], vec![a_radius, b_radius]),
+            } => Numbers::new(vec![bottom], vec![], vec![top, half_x, half_z, rounding]),
+            Self::RoundedCone { a, b, a_radius, b_radius } => Numbers::new(vec![a, b], vec![], vec![a_radius, b_radius]),
             Self::SolidAngle {
                 apex,
                 axis,
                 reach,
                 radius,
                 height,
-            } => (vec![apex, axis], vec![reach, radius, height]),
-            Self::Triangle { corners } => (corners.iter_mut().collect(), vec![]),
-            Self::Quad { corners } => (corners.iter_mut().collect(), vec![]),
+            } => Numbers::new(vec![apex], vec![axis], vec![reach, radius, height]),
+            Self::Triangle { corners } => Numbers::new(corners.iter_mut().collect(), vec![], vec![]),
+            Self::Quad { corners } => Numbers::new(corners.iter_mut().collect(), vec![], vec![]),
         }
     }
 }
