@@ -62,8 +62,8 @@ fn enough_of_them_hit_miss_and_are_refused() {
         // Frames are open, and facets have no inside.
         (Class::Inside, [75, 10, 0]),
         (Class::Axis, [30, 50, 0]),
-        (Class::Grid, [35, 50, 0]),
-        (Class::Grazing, [35, 50, 0]),
+        (Class::Grid, [30, 50, 0]),
+        (Class::Grazing, [30, 50, 0]),
         (Class::Ranged, [12, 50, 25]),
         (Class::Special, [20, 30, 40]),
         (Class::Raw, [1, 2, 90]),

@@ -324,23 +324,25 @@ impl Solid for Rhombus {
         };
         if let Some(round) = &seen.round {
             let axis = Self::axis(t);
-            let edges = self.settled_edges(round);
+            let [first, second, third, fourth] = self.settled_edges(round);
             let ([a, b], [c, d]) = (
                 round.chords[0].crossings(toward.per_component.x),
                 round.chords[1].crossings(toward.per_component.z),
             );
-            let face = |number: usize, edge: &SeenSide<T>| Surface {
+            // From the last to the first, which stays.
+            let around = [(9.0_f32, fourth, d), (8.0, third, c), (7.0, second, b), (6.0, first, a)];
+            let face = |number: f32, edge: &SeenSide<T>| Surface {
                 normal: edge.normal(axis, toward, t),
-                face: t.splat_like(6.0 + number as f32),
+                face: t.splat_like(number),
             };
             // Where a side goes over into an edge, rounding may leave it to the chord to bound the ray: the edge
             // beyond it is what is there.
-            for ((number, edge), chord) in edges.iter().enumerate().zip([a, b, c, d]).rev() {
-                last = face(number, edge).or_else(chord.eq(t), last);
+            for (number, edge, chord) in &around {
+                last = face(*number, edge).or_else(chord.eq(t), last);
             }
-            for (number, edge) in edges.iter().enumerate().rev() {
+            for (number, edge, _) in &around {
                 let span = edge.span(axis, toward);
-                last = face(number, edge).or_else(span.enter.eq(t) | span.exit.eq(t), last);
+                last = face(*number, edge).or_else(span.enter.eq(t) | span.exit.eq(t), last);
             }
         }
         let crossed = Crossed::at(t, last)
