@@ -65,7 +65,7 @@ fn enough_of_them_hit_miss_and_are_refused() {
         (Class::Grid, [30, 50, 0]),
         (Class::Grazing, [30, 50, 0]),
         (Class::Ranged, [12, 50, 25]),
-        (Class::Special, [20, 30, 40]),
+        (Class::Special, [15, 30, 40]),
         (Class::Raw, [1, 2, 90]),
     ] {
         let found = shares(|query| query.class == class);
