@@ -1,28 +1,23 @@
-//! Every property, in one program: what is generic is compiled for all of them once, and not once per file.
+//! Every other property, in one program: what is generic is compiled for all of them once, and not once per file.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 mod accuracy;
 mod algebra;
 mod bad_input;
 mod bad_programs;
-mod boards;
 mod closest;
 mod composed;
 mod cone_cases;
-mod conformance;
 mod departures;
 mod distances;
 mod facets;
 mod fuzzed;
-mod golden;
-mod images;
 mod laws_of_rays;
 mod laws_of_sets;
 mod leaks;
 mod leaves;
 mod marcher;
 mod membership;
-mod packets;
 mod plain;
 mod programs;
 mod references;
