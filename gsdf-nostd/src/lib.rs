@@ -98,9 +98,9 @@ pub mod errata {}
 
 #[cfg(any(doc, doctest))]
 #[doc = include_str!("../docs/numerics.md")]
-#[doc = include_str!("../pictures/accuracy.md")]
+#[doc = include_str!("../docs/accuracy.md")]
 ///
-/// Drawn by `cargo run --release --package gsdf-tests --bin accuracy -- --chart gsdf-nostd/pictures/accuracy.svg`.
+/// Drawn by `cargo run --release --package gsdf-tests --bin accuracy -- --chart gsdf-nostd/docs/accuracy.svg`.
 pub mod numerics {}
 
 mod camera;

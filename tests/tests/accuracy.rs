@@ -83,10 +83,10 @@ fn reference_scale(trial: &gsdf_tests::accuracy::Trial) -> f64 {
 }
 
 /// The chart in the library's documentation is the one this source draws: `accuracy --chart
-/// gsdf-nostd/pictures/accuracy.svg` draws it.
+/// gsdf-nostd/docs/accuracy.svg` draws it.
 #[test]
 fn the_chart_is_that_of_today() {
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../gsdf-nostd/pictures/accuracy");
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../gsdf-nostd/docs/accuracy");
     let svg = chart::svg().unwrap();
     assert!(fs::read_to_string(format!("{path}.svg")).unwrap() == svg, "not the chart of today");
     assert_eq!(fs::read_to_string(format!("{path}.md")).unwrap(), chart::markdown(&svg));
