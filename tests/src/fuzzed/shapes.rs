@@ -10,6 +10,9 @@ use crate::shape::composed::Composed;
 use glam::Vec3;
 use gsdf_nostd::{Bounds, BoxFrame, DoubleCone, Hit, Invalid, Program, Ray, Solid, Span, WideSolidAngle};
 
+/// The size that numbers near zero count as: squares of smaller ones lose digits by underflow.
+const LEAST: f64 = 1.0 / (1_u64 << 50) as f64;
+
 /// How many rounding errors of the numbers that meet a surface may be off, and distances with it: eight each.
 const ALLOWED: f64 = 16.0;
 
@@ -137,7 +140,7 @@ impl Asked<'_> {
     }
 
     fn tolerance(&self, ray: &Ray, travelled: f64) -> f64 {
-        ALLOWED * ROUNDOFF * (ray.origin().as_dvec3().length() + self.extent + travelled)
+        ALLOWED * ROUNDOFF * (ray.origin().as_dvec3().length() + self.extent + travelled).max(LEAST)
     }
 
     fn check(&self, ray: Ray, signed: f64, along: f32, tally: &mut Tally) {
