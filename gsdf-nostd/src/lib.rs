@@ -52,7 +52,7 @@
 //! # Accuracy
 //! A *rounding error* is the unit roundoff (2<sup>-24</sup> in `f32`, 2<sup>-53</sup> in `f64`) times the size of the
 //! numbers that meet at a crossing: the distance of the ray's origin from the world's, plus the distance of the
-//! solid's farthest point of definition, plus its radius, plus the distance travelled; at least 2<sup>-50</sup>, below
+//! solid's farthest point of definition, plus its radius, plus the distance travelled; at least 2<sup>-40</sup>, below
 //! which squares underflow. For every solid, and every ray
 //! in range, a computed crossing, or a computed miss, is the exact one of a surface moved by at most 8 rounding
 //! errors (4 in any test so far). It is thus near-silhouette rays alone whose hit or miss can be wrong. A pose adds

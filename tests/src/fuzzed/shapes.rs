@@ -10,8 +10,9 @@ use crate::shape::composed::Composed;
 use glam::Vec3;
 use gsdf_nostd::{Bounds, BoxFrame, DoubleCone, Hit, Invalid, Program, Ray, Solid, Span, WideSolidAngle};
 
-/// The size that numbers near zero count as: squares of smaller ones lose digits by underflow.
-const LEAST: f64 = 1.0 / (1_u64 << 50) as f64;
+/// The size that numbers near zero count as: squares of smaller ones lose digits by underflow, and through a cone's tip a least
+/// square stands for none.
+const LEAST: f64 = 1.0 / (1_u64 << 40) as f64;
 
 /// How many rounding errors of the numbers that meet a surface may be off, and distances with it: eight each.
 const ALLOWED: f64 = 16.0;
