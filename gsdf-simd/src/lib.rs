@@ -29,7 +29,7 @@ mod packet;
 
 #[cfg(feature = "std")]
 pub use image::{Band, Canvas, Image, Pixel, Planes, Tally};
-pub use lanes::{F32x8, Mask8};
+pub use lanes::{F32x8, LaneMask, Lanes, MOST_LANES, Mask8};
 #[cfg(feature = "std")]
 pub use packet::scratch;
 pub use packet::{EMPTY, Hits, Packet};

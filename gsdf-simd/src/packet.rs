@@ -1,55 +1,54 @@
-//! Eight rays at once.
+//! Several rays at once: eight, or as many as another lane type has.
 
-use crate::lanes::{F32x8, Mask8};
+use crate::lanes::{F32x8, LaneMask, Lanes, MOST_LANES};
 use glam::Vec3;
 use gsdf_nostd::{
-    Anywhere, Encounter, Field, Footing, Hit, Line, MAX_LENGTH, MAX_SPEED, Mask, Program, ProgramError, Raster, Ray, Real, Solid, Span,
+    Anywhere, Encounter, Field, Footing, Hit, Line, MAX_LENGTH, MAX_SPEED, Mask, Program, ProgramError, Raster, Ray, Solid, Span,
     SphereTracer, Surface, Toward, Traced, V3, march,
 };
 
-/// Up to eight rays, each with its own origin, direction and range; a mask says which lanes hold one.
+/// Up to eight rays, each with its own origin, direction and range; a mask says which lanes hold one. Other lane types
+/// make packets of as many rays as they have lanes.
 ///
 /// Lanes without a ray cost nothing more and hit nothing.
 #[derive(Clone, Copy, Debug)]
-pub struct Packet {
+pub struct Packet<T: Lanes = F32x8> {
     /// The lines, with directions scaled, exactly, to a largest component in [1, 2).
-    line: Line<F32x8>,
+    line: Line<T>,
     /// By what the directions were scaled.
-    scale: F32x8,
+    scale: T,
     /// Where the ranges start, in the parameter of `line`. Lanes without a ray start at the end of all things.
-    start: F32x8,
+    start: T,
     /// Where they end, in the parameter of the rays, as single rays compare it.
-    end: F32x8,
-    valid: Mask8,
+    end: T,
+    valid: T::Mask,
 }
 
-/// What eight rays hit first.
+/// What the rays of a packet hit first.
 #[derive(Clone, Copy, Debug)]
-pub struct Hits {
+pub struct Hits<T: Lanes = F32x8> {
     /// The parameters of the rays, infinite where they hit nothing.
-    pub t: F32x8,
+    pub t: T,
     /// Which rays hit something.
-    pub hit: Mask8,
+    pub hit: T::Mask,
     /// The leaves and surfaces hit, and on which side; meaningless elsewhere.
-    pub met: Encounter<F32x8>,
+    pub met: Encounter<T>,
     /// How many sweeps it took, in the slowest lane.
     pub sweeps: u32,
 }
 
-impl Hits {
+impl<T: Lanes> Hits<T> {
     /// The hit of one lane, where `ray` is the ray that was put into it.
     #[must_use]
     pub fn lane(&self, lane: usize, ray: &Ray) -> Option<Hit> {
-        let of = |lanes: F32x8| lanes.to_array().get(lane).copied();
-        let is = |mask: Mask8| mask.to_bits() >> lane & 1 == 1;
-        let t = of(self.t).filter(|t| t.is_finite())?;
+        let t = self.t.lane(lane).filter(|t| t.is_finite())?;
         let Surface { normal, face } = self.met.surface;
         let met = Encounter {
-            leaf: of(self.met.leaf)?,
-            entering: is(self.met.entering),
+            leaf: self.met.leaf.lane(lane)?,
+            entering: self.met.entering.to_bits() >> lane & 1 == 1,
             surface: Surface {
-                normal: V3::new(of(normal.x)?, of(normal.y)?, of(normal.z)?),
-                face: of(face)?,
+                normal: V3::new(normal.x.lane(lane)?, normal.y.lane(lane)?, normal.z.lane(lane)?),
+                face: face.lane(lane)?,
             },
         };
         Some(Hit::new(ray, t, &met))
@@ -60,18 +59,32 @@ impl Packet {
     /// The first eight of these rays; lanes beyond them hold none.
     #[must_use]
     pub fn new(rays: &[Ray]) -> Self {
-        let of = |value: fn(&Ray) -> f32, otherwise: f32| F32x8::new(core::array::from_fn(|lane| rays.get(lane).map_or(otherwise, value)));
+        Self::of((), rays)
+    }
+}
+
+impl<T: Lanes> Packet<T> {
+    /// The first of these rays, one for each lane; lanes beyond them hold none.
+    #[must_use]
+    pub fn of(token: T::Token, rays: &[Ray]) -> Self {
+        let lanes = |value: fn(&Ray) -> f32| {
+            let mut lanes = [0.0; MOST_LANES];
+            for (lane, ray) in lanes.iter_mut().zip(rays) {
+                *lane = value(ray);
+            }
+            T::load(token, &lanes)
+        };
         let origin = V3::new(
-            of(|ray| ray.origin().x, 0.0),
-            of(|ray| ray.origin().y, 0.0),
-            of(|ray| ray.origin().z, 0.0),
+            lanes(|ray| ray.origin().x),
+            lanes(|ray| ray.origin().y),
+            lanes(|ray| ray.origin().z),
         );
         let direction = V3::new(
-            of(|ray| ray.direction().x, 0.0),
-            of(|ray| ray.direction().y, 0.0),
-            of(|ray| ray.direction().z, 0.0),
+            lanes(|ray| ray.direction().x),
+            lanes(|ray| ray.direction().y),
+            lanes(|ray| ray.direction().z),
         );
-        let (start, end) = (of(|ray| ray.range().start, 0.0), of(|ray| ray.range().end, 0.0));
+        let (start, end) = (lanes(|ray| ray.range().start), lanes(|ray| ray.range().end));
         Self::from_lanes(origin, direction, start, end)
     }
 
@@ -79,45 +92,42 @@ impl Packet {
     /// (see [`Raster::ray_through`]) hold no ray.
     #[inline(always)]
     #[must_use]
-    pub fn through(raster: &Raster, x: F32x8, y: F32x8) -> Self {
+    pub fn through(raster: &Raster, x: T, y: T) -> Self {
         let (origin, direction) = raster.line(x, y);
-        Self::from_lanes(origin, direction, F32x8::splat(0.0), F32x8::INFINITY)
+        Self::from_lanes(origin, direction, x.splat_like(0.0), x.splat_like(f32::INFINITY))
     }
 
-    /// Eight rays by their coordinates, with the ranges of their parameters. Lanes that [`Ray::new`] or
-    /// [`Ray::within`] would refuse hold no ray: see [`valid`](Self::valid).
+    /// Rays by their coordinates, with the ranges of their parameters. Lanes that [`Ray::new`] or [`Ray::within`]
+    /// would refuse hold no ray: see [`valid`](Self::valid).
     #[inline(always)]
     #[must_use]
-    pub fn from_lanes(origin: V3<F32x8>, direction: V3<F32x8>, start: F32x8, end: F32x8) -> Self {
-        let within = |v: V3<F32x8>, limit: f32| {
-            let limit = F32x8::splat(limit);
-            v.x.abs().le(limit) & v.y.abs().le(limit) & v.z.abs().le(limit)
-        };
+    pub fn from_lanes(origin: V3<T>, direction: V3<T>, start: T, end: T) -> Self {
+        let (zero, one, infinity) = (start.splat_like(0.0), start.splat_like(1.0), start.splat_like(f32::INFINITY));
         let largest = direction.x.abs().max(direction.y.abs()).max(direction.z.abs());
-        let forward = F32x8::splat(0.0).le(start) & start.lt(end);
-        let fast = F32x8::splat(1.0 / MAX_SPEED).le(largest);
+        let forward = zero.le(start) & start.lt(end);
+        let fast = start.splat_like(1.0 / MAX_SPEED).le(largest);
         let valid = within(origin, MAX_LENGTH) & within(direction, MAX_SPEED) & fast & forward;
         // A harmless ray in the lanes without one: their numbers meet those of the others in no operation but
         // comparisons of masks.
-        let [nowhere, along] = [Vec3::ZERO, Vec3::X].map(|v| V3::splat(start, v));
-        let origin = V3::select(valid, origin, nowhere);
-        let direction = V3::select(valid, direction, along);
-        let scale = F32x8::splat(1.0) / F32x8::select(valid, largest, F32x8::splat(1.0)).power_of_two_below();
+        let origin = V3::select(valid, origin, V3::splat(start, Vec3::ZERO));
+        let direction = V3::select(valid, direction, V3::splat(start, Vec3::X));
+        let scale = one / T::select(valid, largest, one).power_of_two_below();
         Self {
             line: Line {
                 origin,
                 toward: Toward::new(direction.scaled(scale)),
             },
             scale,
-            start: F32x8::select(valid, start / scale, F32x8::INFINITY),
-            end: F32x8::select(valid, end, F32x8::NEG_INFINITY),
+            start: T::select(valid, start / scale, infinity),
+            end: T::select(valid, end, -infinity),
             valid,
         }
     }
 
     /// Which lanes hold a ray.
+    #[inline(always)]
     #[must_use]
-    pub fn valid(&self) -> Mask8 {
+    pub fn valid(&self) -> T::Mask {
         self.valid
     }
 
@@ -125,7 +135,8 @@ impl Packet {
     ///
     /// # Errors
     /// Where `scratch` is shorter than the program has leaves.
-    pub fn cast<L: Solid>(&self, program: &Program<'_, L>, scratch: &mut [Span<F32x8>]) -> Result<Hits, ProgramError> {
+    #[inline(always)]
+    pub fn cast<L: Solid>(&self, program: &Program<'_, L>, scratch: &mut [Span<T>]) -> Result<Hits<T>, ProgramError> {
         Ok(self.cast_in(program, Anywhere, enough(program, scratch)?))
     }
 
@@ -134,18 +145,20 @@ impl Packet {
     ///
     /// # Errors
     /// Where `scratch` is shorter than the program has leaves.
-    pub fn gsdf<L: Solid>(&self, program: &Program<'_, L>, scratch: &mut [Span<F32x8>]) -> Result<F32x8, ProgramError> {
+    #[inline(always)]
+    pub fn gsdf<L: Solid>(&self, program: &Program<'_, L>, scratch: &mut [Span<T>]) -> Result<T, ProgramError> {
         let spans = enough(program, scratch)?;
         program.spans_along(&self.line, Anywhere, spans);
         let found = march(program.nodes(), spans, self.start);
         let t = found.t * self.scale;
-        let signed = F32x8::select(found.inside, -t, t);
-        Ok(F32x8::select(self.valid, signed, F32x8::splat(f32::NAN)))
+        let signed = T::select(found.inside, -t, t);
+        Ok(T::select(self.valid, signed, t.splat_like(f32::NAN)))
     }
 
     /// Sphere tracing of each ray through its range, over the standard distance.
+    #[inline(always)]
     #[must_use]
-    pub fn trace<F: Field>(&self, tracer: &SphereTracer, field: &F) -> Traced<F32x8> {
+    pub fn trace<F: Field>(&self, tracer: &SphereTracer, field: &F) -> Traced<T> {
         let traced = tracer.trace(field, &self.line, self.start, self.end / self.scale);
         Traced {
             t: traced.t * self.scale,
@@ -155,13 +168,13 @@ impl Packet {
 
     /// [`cast`](Self::cast) with what is known of the origins, in scratch memory of the right length.
     #[inline(always)]
-    pub(crate) fn cast_in<L: Solid, F: Footing<L, F32x8>>(&self, program: &Program<'_, L>, footing: F, spans: &mut [Span<F32x8>]) -> Hits {
-        let nothing = F32x8::INFINITY;
+    pub(crate) fn cast_in<L: Solid, F: Footing<L, T>>(&self, program: &Program<'_, L>, footing: F, spans: &mut [Span<T>]) -> Hits<T> {
+        let nothing = self.scale.splat_like(f32::INFINITY);
         program.spans_along(&self.line, footing, spans);
         let found = march(program.nodes(), spans, self.start);
         let along = found.t * self.scale;
         let hit = along.lt(self.end) & along.lt(nothing);
-        let t = F32x8::select(hit, found.t, nothing);
+        let t = T::select(hit, found.t, nothing);
         let met = if hit.any() {
             program.surface_at(&self.line, footing, spans, t)
         } else {
@@ -170,12 +183,12 @@ impl Packet {
                 entering: hit,
                 surface: Surface {
                     normal: -self.line.toward.v,
-                    face: F32x8::splat(0.0),
+                    face: nothing.splat_like(0.0),
                 },
             }
         };
         Hits {
-            t: F32x8::select(hit, along, nothing),
+            t: T::select(hit, along, nothing),
             hit,
             met,
             sweeps: found.sweeps,
@@ -183,21 +196,29 @@ impl Packet {
     }
 }
 
-fn enough<'s, L>(program: &Program<'_, L>, scratch: &'s mut [Span<F32x8>]) -> Result<&'s mut [Span<F32x8>], ProgramError> {
+/// Whether every coordinate is within ±`limit`.
+#[inline(always)]
+fn within<T: Lanes>(v: V3<T>, limit: f32) -> T::Mask {
+    let limit = v.x.splat_like(limit);
+    v.x.abs().le(limit) & v.y.abs().le(limit) & v.z.abs().le(limit)
+}
+
+#[inline(always)]
+fn enough<'s, L, T>(program: &Program<'_, L>, scratch: &'s mut [Span<T>]) -> Result<&'s mut [Span<T>], ProgramError> {
     let length = scratch.len();
     scratch
         .get_mut(..program.leaves())
         .ok_or(ProgramError::ScratchTooShort(length, program.leaves()))
 }
 
-/// Scratch memory for the packets of a program with this many leaves.
+/// Scratch memory for the packets of eight of a program with this many leaves.
 #[cfg(feature = "std")]
 #[must_use]
 pub fn scratch(leaves: usize) -> std::vec::Vec<Span<F32x8>> {
     std::vec![EMPTY; leaves]
 }
 
-/// Eight spans without points: what scratch memory is filled with.
+/// Eight spans without points: what scratch memory is filled with. For other lane types see [`Span::empty_like`].
 pub const EMPTY: Span<F32x8> = Span {
     enter: F32x8::INFINITY,
     exit: F32x8::NEG_INFINITY,

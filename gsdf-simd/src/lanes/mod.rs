@@ -1,5 +1,84 @@
-//! Lane types: how eight numbers are one.
+//! Lane types: how several numbers are one.
 
 mod wide;
 
 pub use wide::{F32x8, Mask8};
+
+use gsdf_nostd::{Mask, Real};
+
+/// The most lanes that a type of this crate has: an array that takes those of any type is this long.
+pub const MOST_LANES: usize = 16;
+
+/// Several `f32` as one number: what a packet of rays is made of. [`Real::LANES`] says how many.
+///
+/// Some types can only be made where the processor is known to have their instructions. Their values carry a token
+/// that proves it, and new ones are made from that; [`F32x8`] needs none.
+pub trait Lanes: Real<Scalar = f32, Mask: LaneMask> {
+    /// What values are made from.
+    type Token: Copy + Send + Sync;
+
+    /// The same number in every lane.
+    #[must_use]
+    fn splat(token: Self::Token, value: f32) -> Self;
+    /// The first numbers of a slice, first to last; zero in the lanes beyond its end.
+    #[must_use]
+    fn load(token: Self::Token, lanes: &[f32]) -> Self;
+    /// What other values can be made from.
+    #[must_use]
+    fn token(self) -> Self::Token;
+    /// Puts the lanes into a slice, first to last, as far as it reaches.
+    fn store(self, place: &mut [f32]);
+    /// The power of two at or below each lane, for positive normal numbers: their exponent bits alone.
+    #[must_use]
+    fn power_of_two_below(self) -> Self;
+    /// The least lane. Either zero if both are least; some number or NaN if a lane is NaN.
+    #[must_use]
+    fn least(self) -> f32;
+    /// The greatest lane. Either zero if both are greatest; some number or NaN if a lane is NaN.
+    #[must_use]
+    fn greatest(self) -> f32;
+
+    /// One lane, if there is one of that number.
+    #[inline(always)]
+    #[must_use]
+    fn lane(self, lane: usize) -> Option<f32> {
+        let mut lanes = [0.0; MOST_LANES];
+        self.store(&mut lanes);
+        lanes.get(..Self::LANES)?.get(lane).copied()
+    }
+}
+
+/// The truth values of [`Lanes`].
+pub trait LaneMask: Mask {
+    /// The truth values as the bits of a number, the lowest bit for the first lane; zeros beyond the last.
+    #[must_use]
+    fn to_bits(self) -> u32;
+}
+
+/// The first numbers of a slice, and zeros after its end.
+#[inline(always)]
+fn padded<const N: usize>(numbers: &[f32]) -> [f32; N] {
+    match numbers.first_chunk() {
+        Some(whole) => *whole,
+        None => {
+            let mut padded = [0.0; N];
+            for (place, number) in padded.iter_mut().zip(numbers) {
+                *place = *number;
+            }
+            padded
+        }
+    }
+}
+
+/// Puts numbers into a slice, as far as it reaches.
+#[inline(always)]
+fn put<const N: usize>(numbers: [f32; N], place: &mut [f32]) {
+    match place.first_chunk_mut() {
+        Some(whole) => *whole = numbers,
+        None => {
+            for (place, number) in place.iter_mut().zip(numbers) {
+                *place = number;
+            }
+        }
+    }
+}

@@ -1,5 +1,6 @@
 //! Eight `f32` in whatever vectors the target has: the portable packet.
 
+use super::{LaneMask, Lanes, padded, put};
 use core::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 use gsdf_nostd::{Mask, Real};
 use wide::f32x8;
@@ -29,13 +30,6 @@ impl F32x8 {
     pub const INFINITY: Self = Self(f32x8::new([f32::INFINITY; 8]));
     /// Negative infinity in every lane.
     pub const NEG_INFINITY: Self = Self(f32x8::new([f32::NEG_INFINITY; 8]));
-
-    /// The power of two at or below each lane, for positive normal numbers: their exponent bits alone.
-    #[inline(always)]
-    #[must_use]
-    pub(crate) fn power_of_two_below(self) -> Self {
-        Self(self.0 & f32x8::splat(f32::INFINITY))
-    }
 
     /// The same number in every lane.
     #[inline(always)]
@@ -206,5 +200,45 @@ impl Real for F32x8 {
     #[inline(always)]
     fn max(self, other: Self) -> Self {
         Self(self.0.fast_max(other.0))
+    }
+}
+
+impl Lanes for F32x8 {
+    type Token = ();
+
+    #[inline(always)]
+    fn splat((): (), value: f32) -> Self {
+        Self(f32x8::splat(value))
+    }
+    #[inline(always)]
+    fn load((): (), lanes: &[f32]) -> Self {
+        Self::new(padded(lanes))
+    }
+    #[inline(always)]
+    fn token(self) {}
+    #[inline(always)]
+    fn store(self, place: &mut [f32]) {
+        put(self.to_array(), place);
+    }
+    #[inline(always)]
+    fn power_of_two_below(self) -> Self {
+        Self(self.0 & f32x8::splat(f32::INFINITY))
+    }
+    #[inline(always)]
+    fn least(self) -> f32 {
+        let [a, b, c, d, e, f, g, h] = self.to_array();
+        a.min(b).min(c.min(d)).min(e.min(f).min(g.min(h)))
+    }
+    #[inline(always)]
+    fn greatest(self) -> f32 {
+        let [a, b, c, d, e, f, g, h] = self.to_array();
+        a.max(b).max(c.max(d)).max(e.max(f).max(g.max(h)))
+    }
+}
+
+impl LaneMask for Mask8 {
+    #[inline(always)]
+    fn to_bits(self) -> u32 {
+        u32::from(Self::to_bits(self))
     }
 }
