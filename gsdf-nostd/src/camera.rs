@@ -88,6 +88,18 @@ impl Camera {
         self.forward
     }
 
+    /// The unit vector to the right in its picture.
+    #[must_use]
+    pub const fn right(&self) -> Vec3 {
+        self.right
+    }
+
+    /// The unit vector upward in its picture.
+    #[must_use]
+    pub const fn up(&self) -> Vec3 {
+        self.up
+    }
+
     /// How its rays spread.
     #[must_use]
     pub const fn projection(&self) -> Projection {
@@ -144,6 +156,14 @@ impl Raster {
         self.height
     }
 
+    /// The side of a pixel: in the plane at depth 1 of a pinhole camera, in the scene for an orthographic one.
+    #[inline(always)]
+    #[must_use]
+    #[allow(clippy::cast_precision_loss, reason = "pictures are lower than 2^24 pixels")]
+    pub fn pixel(&self) -> f32 {
+        2.0 * self.camera.half_height / self.height as f32
+    }
+
     /// The ray through the centre of pixel (`x`, `y`).
     ///
     /// # Errors
@@ -169,7 +189,7 @@ impl Raster {
     pub fn line<T: Real>(&self, x: T, y: T) -> (V3<T>, V3<T>) {
         let camera = &self.camera;
         let (width, height) = (self.width as f32, self.height as f32);
-        let pixel = x.splat_like(2.0 * camera.half_height / height);
+        let pixel = x.splat_like(self.pixel());
         let across = V3::splat(x, camera.right).scaled((x - x.splat_like(0.5 * width)) * pixel);
         let upward = V3::splat(x, camera.up).scaled((x.splat_like(0.5 * height) - y) * pixel);
         let (eye, forward) = (V3::splat(x, camera.eye), V3::splat(x, camera.forward));

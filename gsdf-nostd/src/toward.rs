@@ -24,12 +24,24 @@ impl<T: Real> Toward<T> {
     /// The direction `v`, which must not be zero.
     #[inline(always)]
     pub fn new(v: V3<T>) -> Self {
+        Self {
+            per_component: V3::new(reciprocal_speed(v.x), reciprocal_speed(v.y), reciprocal_speed(v.z)),
+            ..Self::without_components(v)
+        }
+    }
+
+    /// The direction `v` for solids that do not [look at the reciprocals of its components]: in their place are the
+    /// components.
+    ///
+    /// [look at the reciprocals of its components]: crate::Solid::divides_by_components
+    #[inline(always)]
+    pub fn without_components(v: V3<T>) -> Self {
         let vv = v.norm_squared();
         Self {
             v,
             vv,
             per_vv: vv.splat_like(1.0) / vv,
-            per_component: V3::new(reciprocal_speed(v.x), reciprocal_speed(v.y), reciprocal_speed(v.z)),
+            per_component: v,
         }
     }
 }

@@ -208,6 +208,8 @@ pub struct Planes<'p> {
     pub leaf: Option<&'p mut [u32]>,
     /// How far the rows are apart; at least the width of the image.
     pub stride: usize,
+    /// The width of the image.
+    pub width: u32,
 }
 
 impl Canvas for Planes<'_> {
@@ -231,6 +233,7 @@ impl Canvas for Planes<'_> {
                 normal: next_normal(),
                 leaf: leaf.as_mut().and_then(Iterator::next),
                 stride,
+                width: self.width,
             })
             .collect()
     }

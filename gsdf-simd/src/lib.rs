@@ -26,10 +26,26 @@
 mod image;
 mod lanes;
 mod packet;
+#[cfg(feature = "std")]
+mod renderer;
+#[cfg(feature = "std")]
+mod scene;
+#[cfg(feature = "std")]
+mod target;
+#[cfg(feature = "std")]
+mod tile;
 
 #[cfg(feature = "std")]
 pub use image::{Band, Canvas, Image, Pixel, Planes, Tally};
 pub use lanes::{F32x8, LaneMask, Lanes, MOST_LANES, Mask8};
 #[cfg(feature = "std")]
 pub use packet::scratch;
+#[cfg(feature = "std")]
+pub use renderer::{Effort, Renderer};
+#[cfg(feature = "std")]
+pub use scene::Scene;
+#[cfg(feature = "std")]
+pub use target::{Records, Target, Tiles, TilesMut};
+#[cfg(feature = "std")]
+pub use tile::{TILE_PIXELS, TILE_SIDE, Tile};
 pub use packet::{EMPTY, Hits, Packet};

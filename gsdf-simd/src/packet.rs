@@ -102,8 +102,8 @@ impl<T: Lanes> Packet<T> {
     #[inline(always)]
     #[must_use]
     pub fn from_lanes(origin: V3<T>, direction: V3<T>, start: T, end: T) -> Self {
-        let (zero, one, infinity) = (start.splat_like(0.0), start.splat_like(1.0), start.splat_like(f32::INFINITY));
-        let largest = direction.x.abs().max(direction.y.abs()).max(direction.z.abs());
+        let (zero, infinity) = (start.splat_like(0.0), start.splat_like(f32::INFINITY));
+        let largest = largest(direction);
         let forward = zero.le(start) & start.lt(end);
         let fast = start.splat_like(1.0 / MAX_SPEED).le(largest);
         let valid = within(origin, MAX_LENGTH) & within(direction, MAX_SPEED) & fast & forward;
@@ -111,17 +111,23 @@ impl<T: Lanes> Packet<T> {
         // comparisons of masks.
         let origin = V3::select(valid, origin, V3::splat(start, Vec3::ZERO));
         let direction = V3::select(valid, direction, V3::splat(start, Vec3::X));
-        let scale = one / T::select(valid, largest, one).power_of_two_below();
+        let (direction, scale) = scaled(direction);
         Self {
             line: Line {
                 origin,
-                toward: Toward::new(direction.scaled(scale)),
+                toward: Toward::new(direction),
             },
             scale,
             start: T::select(valid, start / scale, infinity),
             end: T::select(valid, end, -infinity),
             valid,
         }
+    }
+
+    /// The lines, by what their directions are scaled, and where they start.
+    #[inline(always)]
+    pub(crate) fn into_parts(self) -> (Line<T>, T, T) {
+        (self.line, self.scale, self.start)
     }
 
     /// Which lanes hold a ray.
@@ -194,6 +200,20 @@ impl<T: Lanes> Packet<T> {
             sweeps: found.sweeps,
         }
     }
+}
+
+/// The largest magnitude of a component.
+#[inline(always)]
+fn largest<T: Lanes>(v: V3<T>) -> T {
+    v.x.abs().max(v.y.abs()).max(v.z.abs())
+}
+
+/// A direction scaled, exactly, to a largest component in [1, 2), and by what.
+#[inline(always)]
+pub(crate) fn scaled<T: Lanes>(direction: V3<T>) -> (V3<T>, T) {
+    let largest = largest(direction);
+    let scale = largest.splat_like(1.0) / largest.power_of_two_below();
+    (direction.scaled(scale), scale)
 }
 
 /// Whether every coordinate is within ±`limit`.

@@ -134,7 +134,8 @@ impl<'a, L> Program<'a, L> {
 
     /// The pose of a frame, `None` for one at rest.
     #[inline(always)]
-    pub(super) fn pose(&self, frame: u16) -> Option<&'a Transform> {
+    #[must_use]
+    pub fn pose(&self, frame: u16) -> Option<&'a Transform> {
         usize::from(frame).checked_sub(1).and_then(|index| self.poses.get(index))
     }
 }

@@ -208,6 +208,10 @@ impl Solid for CappedCone {
         face(1.0, -profile.axis).or_else(at_bottom, face(2.0, profile.axis).or_else(at_top, side))
     }
 
+    fn divides_by_components(&self) -> bool {
+        false
+    }
+
     fn bounds(&self) -> Option<Bounds> {
         let bottom = Bounds::of_disc(self.bottom, self.axis, self.bottom_radius);
         Some(bottom.joined(Bounds::of_disc(self.top, self.axis, self.top_radius)))

@@ -156,6 +156,10 @@ impl Solid for CappedCylinder {
         cap(1.0, -axis).or_else(at_bottom, cap(2.0, axis).or_else(at_top, side))
     }
 
+    fn divides_by_components(&self) -> bool {
+        false
+    }
+
     fn bounds(&self) -> Option<Bounds> {
         let disc = |center| Bounds::of_disc(center, self.side.axis(), self.side.radius());
         Some(disc(self.bottom()).joined(disc(self.top)))

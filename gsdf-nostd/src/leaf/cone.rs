@@ -181,6 +181,10 @@ impl Solid for Cone {
         base.or_else(at_base, side)
     }
 
+    fn divides_by_components(&self) -> bool {
+        false
+    }
+
     fn bounds(&self) -> Option<Bounds> {
         let tip = Bounds::around(self.apex, Vec3::ZERO);
         Some(tip.joined(Bounds::of_disc(self.base, self.axis, self.radius)))

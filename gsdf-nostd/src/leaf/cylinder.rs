@@ -204,6 +204,10 @@ impl Solid for Cylinder {
         }
     }
 
+    fn divides_by_components(&self) -> bool {
+        false
+    }
+
     fn bounds(&self) -> Option<Bounds> {
         None
     }

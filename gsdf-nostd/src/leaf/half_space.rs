@@ -104,6 +104,10 @@ impl Solid for HalfSpace {
         }
     }
 
+    fn divides_by_components(&self) -> bool {
+        false
+    }
+
     fn bounds(&self) -> Option<Bounds> {
         None
     }

@@ -151,6 +151,10 @@ impl Solid for Nappe {
         }
     }
 
+    fn divides_by_components(&self) -> bool {
+        false
+    }
+
     fn bounds(&self) -> Option<Bounds> {
         None
     }

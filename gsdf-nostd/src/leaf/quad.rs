@@ -118,6 +118,10 @@ impl Solid for Quad {
         }
     }
 
+    fn divides_by_components(&self) -> bool {
+        false
+    }
+
     fn bounds(&self) -> Option<Bounds> {
         let [a, b, c, d] = self.corners;
         Some(Bounds {

@@ -226,6 +226,10 @@ impl Solid for RoundedCone {
         first.or_else(at_first, second.or_else(at_second, side))
     }
 
+    fn divides_by_components(&self) -> bool {
+        false
+    }
+
     fn bounds(&self) -> Option<Bounds> {
         let [first, second] = self.ends.map(|end| end.bounds());
         first.zip(second).map(|(first, second)| first.joined(second))

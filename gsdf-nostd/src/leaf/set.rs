@@ -104,6 +104,28 @@ macro_rules! leaf_set {
                 }
 
                 #[inline(always)]
+                fn spans_lifted<T: Real>(&self, seen: &Seen<T::Scalar>, lines: &[Line<T>], which: u32, spans: &mut [Span<T>], step: usize) {
+                    match (self, seen) {
+                        $((Self::$variant(solid), Seen::$variant(seen)) => solid.spans_lifted(seen, lines, which, spans, step),)+
+                        #[allow(unreachable_patterns)]
+                        _ => {}
+                    }
+                }
+
+                #[inline(always)]
+                fn spans_along<T: Real>(&self, lines: &[Line<T>], which: u32, spans: &mut [Span<T>], step: usize) {
+                    match self {
+                        $(Self::$variant(solid) => solid.spans_along(lines, which, spans, step),)+
+                    }
+                }
+
+                fn divides_by_components(&self) -> bool {
+                    match self {
+                        $(Self::$variant(solid) => solid.divides_by_components(),)+
+                    }
+                }
+
+                #[inline(always)]
                 fn span_along<T: Real>(&self, line: &Line<T>) -> Span<T> {
                     match self {
                         $(Self::$variant(solid) => solid.span_along(line),)+

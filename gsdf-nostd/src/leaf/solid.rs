@@ -49,6 +49,13 @@ pub trait Solid: Copy {
     /// A box around the solid, or `None` where it is unbounded.
     fn bounds(&self) -> Option<Bounds>;
 
+    /// Whether its formulas look at [`Toward::per_component`]. Where no solid of a scene does, an evaluator may leave the
+    /// three divisions out ([`Toward::without_components`]).
+    #[inline]
+    fn divides_by_components(&self) -> bool {
+        true
+    }
+
     /// [`seen_from`](Solid::seen_from) and [`span`](Solid::span) in one.
     #[inline]
     fn span_along<T: Real>(&self, line: &Line<T>) -> Span<T> {
@@ -72,6 +79,39 @@ pub trait Solid: Copy {
     #[inline(always)]
     fn surface_along<T: Real>(&self, line: &Line<T>, t: T) -> Surface<T> {
         self.surface(&self.seen_from(line.origin), &line.toward, t)
+    }
+
+    /// [`span_lifted`](Solid::span_lifted) along many lines from the one origin: those of `lines` whose bits are set in
+    /// `which`, in ascending order, into every `step`-th place of `spans`. What is beyond the end of a slice is left out.
+    ///
+    /// A choice of solids chooses once for all of them.
+    #[inline(always)]
+    fn spans_lifted<T: Real>(&self, seen: &Self::Seen<T::Scalar>, lines: &[Line<T>], which: u32, spans: &mut [Span<T>], step: usize) {
+        let mut bits = which;
+        let mut place = 0;
+        while bits != 0 {
+            let line = bits.trailing_zeros() as usize;
+            bits &= bits - 1;
+            if let (Some(line), Some(span)) = (lines.get(line), spans.get_mut(place)) {
+                *span = self.span_lifted(seen, &line.toward);
+            }
+            place += step;
+        }
+    }
+
+    /// The same along lines that each have an origin of their own: [`span_along`](Solid::span_along).
+    #[inline(always)]
+    fn spans_along<T: Real>(&self, lines: &[Line<T>], which: u32, spans: &mut [Span<T>], step: usize) {
+        let mut bits = which;
+        let mut place = 0;
+        while bits != 0 {
+            let line = bits.trailing_zeros() as usize;
+            bits &= bits - 1;
+            if let (Some(line), Some(span)) = (lines.get(line), spans.get_mut(place)) {
+                *span = self.span_along(line);
+            }
+            place += step;
+        }
     }
 
     /// The standard signed distance function `φ(p)`: how far from `p` to the nearest point of the surface, negative

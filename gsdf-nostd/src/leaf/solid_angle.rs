@@ -147,6 +147,10 @@ impl Solid for SolidAngle {
         round.or_else(ball.enter.eq(t) | ball.exit.eq(t), self.nappe.surface(&seen.side, toward, t))
     }
 
+    fn divides_by_components(&self) -> bool {
+        false
+    }
+
     fn bounds(&self) -> Option<Bounds> {
         let side = self.nappe.profile(0.0_f32);
         Some(sector_bounds(self.apex(), self.axis(), side.s, side.k, self.reach))

@@ -130,6 +130,10 @@ impl Solid for Sphere {
         }
     }
 
+    fn divides_by_components(&self) -> bool {
+        false
+    }
+
     fn bounds(&self) -> Option<Bounds> {
         Some(Bounds::around(self.center, Vec3::splat(self.radius)))
     }

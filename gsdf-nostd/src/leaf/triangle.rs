@@ -97,6 +97,10 @@ impl Solid for Triangle {
         }
     }
 
+    fn divides_by_components(&self) -> bool {
+        false
+    }
+
     fn bounds(&self) -> Option<Bounds> {
         let [a, b, c] = self.corners;
         Some(Bounds {

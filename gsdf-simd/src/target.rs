@@ -1,0 +1,221 @@
+//! Where the pixels of a picture go: tiles as they are found, records, or planes.
+
+use crate::image::{Pixel, Planes};
+use crate::tile::{TILE_SIDE, Tile};
+
+/// Takes the tiles of a picture.
+///
+/// Implemented here by [`TilesMut`], [`Records`] and [`Planes`]; implement it for a frame buffer of yours.
+pub trait Target: Send + Sized {
+    /// Whether it wants normals. Without them a tile takes up to a third less time.
+    fn wants_normals(&self) -> bool;
+
+    /// The part above a row and the part from it on, for two threads to fill. The row is a multiple of 16.
+    fn split_at(self, row: u32) -> (Self, Self);
+
+    /// Takes the tile whose left upper pixel is in column `x` and row `y`, counted from its own first row; both are
+    /// multiples of 16. A tile may reach beyond the right or the lower edge.
+    fn put(&mut self, x: u32, y: u32, tile: &Tile);
+}
+
+/// A picture, tile by tile in reading order: the layout that costs least to fill.
+#[derive(Clone, Debug)]
+pub struct Tiles {
+    tiles: Vec<Tile>,
+    width: u32,
+    height: u32,
+}
+
+/// How many tiles cover so many pixels.
+fn across(pixels: u32) -> usize {
+    (pixels as usize).div_ceil(TILE_SIDE)
+}
+
+impl Tiles {
+    /// A picture of this size that shows nothing.
+    #[must_use]
+    pub fn new(width: u32, height: u32) -> Self {
+        Self {
+            tiles: vec![Tile::NOTHING; across(width) * across(height)],
+            width,
+            height,
+        }
+    }
+
+    /// The picture as a target.
+    pub fn as_target(&mut self) -> TilesMut<'_> {
+        TilesMut {
+            columns: across(self.width),
+            tiles: &mut self.tiles,
+            normals: true,
+        }
+    }
+
+    /// The tiles, in reading order. Pixels beyond the picture's edges are those of a larger one.
+    #[must_use]
+    pub fn tiles(&self) -> &[Tile] {
+        &self.tiles
+    }
+
+    /// A pixel; `None` beyond the edges.
+    #[must_use]
+    pub fn pixel(&self, x: u32, y: u32) -> Option<Pixel> {
+        if x >= self.width || y >= self.height {
+            return None;
+        }
+        let (x, y) = (x as usize, y as usize);
+        let tile = self.tiles.get(y / TILE_SIDE * across(self.width) + x / TILE_SIDE)?;
+        Some(tile.pixel(x % TILE_SIDE, y % TILE_SIDE))
+    }
+}
+
+/// Rows of tiles to be filled.
+#[derive(Debug)]
+pub struct TilesMut<'t> {
+    tiles: &'t mut [Tile],
+    columns: usize,
+    normals: bool,
+}
+
+impl TilesMut<'_> {
+    /// The same without normals: those of the tiles are left as they are.
+    #[must_use]
+    pub fn without_normals(self) -> Self {
+        Self { normals: false, ..self }
+    }
+}
+
+impl Target for TilesMut<'_> {
+    fn wants_normals(&self) -> bool {
+        self.normals
+    }
+
+    fn split_at(self, row: u32) -> (Self, Self) {
+        let rows = row as usize / TILE_SIDE * self.columns;
+        let (above, below) = self.tiles.split_at_mut(rows.min(self.tiles.len()));
+        let of = |tiles| TilesMut {
+            tiles,
+            columns: self.columns,
+            normals: self.normals,
+        };
+        (of(above), of(below))
+    }
+
+    #[inline]
+    fn put(&mut self, x: u32, y: u32, tile: &Tile) {
+        let index = y as usize / TILE_SIDE * self.columns + x as usize / TILE_SIDE;
+        if let Some(place) = self.tiles.get_mut(index) {
+            place.distance = tile.distance;
+            place.leaf = tile.leaf;
+            if self.normals {
+                place.normal = tile.normal;
+            }
+        }
+    }
+}
+
+/// Records, row by row.
+#[derive(Debug)]
+pub struct Records<'p> {
+    pixels: &'p mut [Pixel],
+    width: usize,
+}
+
+impl<'p> Records<'p> {
+    /// The records of a picture of this width. A last row that is not full is left as it is.
+    #[must_use]
+    pub fn new(pixels: &'p mut [Pixel], width: u32) -> Self {
+        Self {
+            pixels,
+            width: (width as usize).max(1),
+        }
+    }
+}
+
+impl Target for Records<'_> {
+    fn wants_normals(&self) -> bool {
+        true
+    }
+
+    fn split_at(self, row: u32) -> (Self, Self) {
+        let start = (row as usize * self.width).min(self.pixels.len());
+        let (above, below) = self.pixels.split_at_mut(start);
+        let of = |pixels| Records { pixels, width: self.width };
+        (of(above), of(below))
+    }
+
+    fn put(&mut self, x: u32, y: u32, tile: &Tile) {
+        let left = x as usize;
+        let rows = self.pixels.chunks_exact_mut(self.width).skip(y as usize).take(TILE_SIDE);
+        for (y, row) in rows.enumerate() {
+            for (x, pixel) in row.iter_mut().skip(left).take(TILE_SIDE).enumerate() {
+                *pixel = tile.pixel(x, y);
+            }
+        }
+    }
+}
+
+impl Target for Planes<'_> {
+    fn wants_normals(&self) -> bool {
+        self.normal.is_some()
+    }
+
+    fn split_at(self, row: u32) -> (Self, Self) {
+        let stride = self.stride.max(1);
+        let start = row as usize * stride;
+        let cut = |length: usize| start.min(length);
+        let (distance, distance_below) = self.distance.split_at_mut(cut(self.distance.len()));
+        let (normal, normal_below) = match self.normal {
+            Some([x, y, z]) => {
+                let (x, x_below) = x.split_at_mut(cut(x.len()));
+                let (y, y_below) = y.split_at_mut(cut(y.len()));
+                let (z, z_below) = z.split_at_mut(cut(z.len()));
+                (Some([x, y, z]), Some([x_below, y_below, z_below]))
+            }
+            None => (None, None),
+        };
+        let (leaf, leaf_below) = match self.leaf {
+            Some(leaf) => {
+                let (leaf, below) = leaf.split_at_mut(cut(leaf.len()));
+                (Some(leaf), Some(below))
+            }
+            None => (None, None),
+        };
+        let of = |distance, normal, leaf| Planes {
+            distance,
+            normal,
+            leaf,
+            stride,
+            width: self.width,
+        };
+        (of(distance, normal, leaf), of(distance_below, normal_below, leaf_below))
+    }
+
+    fn put(&mut self, x: u32, y: u32, tile: &Tile) {
+        let count = (self.width as usize).saturating_sub(x as usize).min(TILE_SIDE);
+        let stride = self.stride.max(1);
+        for row in 0..TILE_SIDE {
+            let start = (y as usize + row) * stride + x as usize;
+            copy(&tile.distance, row, count, self.distance, start);
+            if let Some(planes) = &mut self.normal {
+                for (plane, normal) in planes.iter_mut().zip(&tile.normal) {
+                    copy(normal, row, count, plane, start);
+                }
+            }
+            if let Some(plane) = &mut self.leaf {
+                copy(&tile.leaf, row, count, plane, start);
+            }
+        }
+    }
+}
+
+/// Copies a row of a tile's plane, as far as the other plane reaches.
+#[inline(always)]
+fn copy<N: Copy>(from: &[N], row: usize, count: usize, plane: &mut [N], start: usize) {
+    let Some(places) = plane.get_mut(start..) else { return };
+    for (x, place) in places.iter_mut().take(count).enumerate() {
+        if let Some(number) = from.get(Tile::index(x, row)) {
+            *place = *number;
+        }
+    }
+}

@@ -1,0 +1,152 @@
+//! Any part of a program: what the rays of a tile can meet of it is marched.
+
+use super::reduce::{Known, Reduced};
+use super::spans::leaf_spans;
+use super::state::Workspace;
+use crate::lanes::{Lanes, MOST_LANES};
+use crate::scene::{Beam, FANOUT, Form, View, Walk};
+use core::ops::Range;
+use gsdf_nostd::{Mask, Node, Solid, Span, attribute, march};
+
+/// How many spans are kept at once; of programs with more leaves fewer packets are marched together.
+const MOST_SPANS: usize = 8192;
+
+/// A part of the program with its leaves in these places, or the whole of it, cast at by some packets of a tile. The
+/// whole of it is for rays that start inside: it is found where they first leave or enter.
+#[inline(always)]
+pub(crate) fn cast<T: Lanes, L: Solid>(
+    token: T::Token,
+    view: &View<'_, '_, L>,
+    beam: &Beam,
+    places: Range<u32>,
+    form: &Form,
+    which: u32,
+    work: &mut Workspace<T, L>,
+) {
+    let scene = view.scene;
+    let all = matches!(form, Form::Whole);
+    let (nodes, tree) = match form {
+        Form::March { nodes, cuts } => (
+            scene.program().nodes().get(nodes.start as usize..nodes.end as usize),
+            scene.cuts(*cuts),
+        ),
+        _ => (Some(scene.program().nodes()), Some(scene.tree())),
+    };
+    let (Some(nodes), Some(tree)) = (nodes, tree) else { return };
+    work.live.clear();
+    work.live.resize(if all { scene.program().leaves() } else { places.len() }, false);
+    let mut walk = Walk::new(tree);
+    while let Some((item, met)) = walk.next::<T>(token, tree, beam, f32::INFINITY) {
+        let mut bits = met.bits;
+        while bits != 0 {
+            let place = bits.trailing_zeros() as usize % FANOUT;
+            bits &= bits - 1;
+            if all {
+                scene.mark(item + place, &mut work.live);
+            } else if let Some(live) = work.live.get_mut(item + place) {
+                *live = true;
+            }
+        }
+    }
+    work.every_place.clear();
+    if all {
+        for part in scene.unbounded() {
+            scene.mark(part, &mut work.live);
+        }
+        work.every_place.extend_from_slice(scene.places());
+    } else {
+        work.every_place.extend(places);
+    }
+    let known = reduce(nodes, work);
+    march_reduced(view, known, which, all, work);
+}
+
+/// Reduces a program to its live leaves.
+fn reduce<T: Lanes, L: Solid>(nodes: &[Node<L>], work: &mut Workspace<T, L>) -> Known {
+    let mut reduced = Reduced {
+        nodes: &mut work.nodes,
+        places: &mut work.places,
+        waiting: &mut work.waiting,
+    };
+    reduced.reduce(nodes, &work.every_place, &work.live)
+}
+
+/// Marches some packets through the reduced program. Where that is `all` there is, what they meet replaces whatever was
+/// found before.
+#[inline(always)]
+fn march_reduced<T: Lanes, L: Solid>(view: &View<'_, '_, L>, known: Known, which: u32, all: bool, work: &mut Workspace<T, L>) {
+    let (_, like, _) = work.rays.packet(0);
+    let nothing = like.splat_like(f32::INFINITY);
+    if known != Known::Open {
+        if all {
+            let mut bits = which;
+            while bits != 0 {
+                work.met.replace(bits.trailing_zeros() as usize, nothing, nothing);
+                bits &= bits - 1;
+            }
+        } else if known == Known::Inside {
+            work.met.inside |= which;
+        }
+        return;
+    }
+    let leaves = work.places.len();
+    let together = (MOST_SPANS / leaves).max(1);
+    let mut left = which;
+    while left != 0 {
+        // The next packets that are marched together.
+        let mut some = 0;
+        let mut count = 0;
+        while left != 0 && count < together {
+            some |= left & left.wrapping_neg();
+            left &= left - 1;
+            count += 1;
+        }
+        if work.spans.len() < count * leaves {
+            work.spans.resize(count * leaves, Span { enter: nothing, exit: -nothing });
+        }
+        for leaf in 0..leaves {
+            leaf_spans(view, work.places[leaf], some, &mut work.rays, &mut work.spans[leaf..], leaves);
+        }
+        work.computed += (count * leaves) as u64;
+
+        let mut start_of_spans = 0;
+        while some != 0 {
+            let packet = some.trailing_zeros() as usize;
+            some &= some - 1;
+            let spans = &work.spans[start_of_spans..start_of_spans + leaves];
+            start_of_spans += leaves;
+            let (_, scale, start) = work.rays.packet(packet);
+            let found = march(&work.nodes, spans, start);
+            let mut t = found.t;
+            if !all {
+                // A lane without a ray starts, and ends, at infinity.
+                if (found.inside & start.lt(nothing)).any() {
+                    work.met.inside |= 1 << packet;
+                }
+                t = T::select(found.inside, nothing, t);
+                let (nearest, _) = work.met.packet(packet);
+                if !(t.lt(nothing) & t.le(nearest)).any() {
+                    continue;
+                }
+            } else if !(t * scale).lt(nothing).any() {
+                work.met.replace(packet, nothing, nothing);
+                continue;
+            }
+            let index = attribute(&work.nodes, spans, t).leaf;
+            let mut lanes = [0.0; MOST_LANES];
+            index.store(&mut lanes);
+            for lane in &mut lanes {
+                *lane = match work.places.get(*lane as usize) {
+                    Some(place) => view.scene.number(*place) as f32,
+                    None => f32::INFINITY,
+                };
+            }
+            let leaf = T::load(like.token(), &lanes);
+            if all {
+                work.met.replace(packet, t, leaf);
+            } else {
+                work.met.enter(packet, t, leaf);
+            }
+        }
+    }
+}

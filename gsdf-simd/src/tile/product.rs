@@ -1,0 +1,217 @@
+//! A product seen from outside: it is entered at the last of the entries of what must be inside, or where the last of the
+//! complements in the way ends.
+
+use super::rays::{MOST_PACKETS, packets_within};
+use super::spans::leaf_spans;
+use super::state::{MOST_CUTS, Workspace};
+use crate::lanes::Lanes;
+use crate::scene::{Beam, FANOUT, Tree, View, Walk};
+use core::ops::Range;
+use gsdf_nostd::{Mask, Solid, Span};
+
+/// The intersection of the solids in the places from `first` to `last`, along some packets, one after the other at the
+/// start of `work.spans`; and the numbers of the leaves at its entries.
+#[inline(always)]
+fn intersect<T: Lanes, L: Solid>(view: &View<'_, '_, L>, first: u32, last: u32, which: u32, work: &mut Workspace<T, L>) {
+    let count = which.count_ones() as usize;
+    let (_, like, _) = work.rays.packet(0);
+    if first == last {
+        let everywhere = like.splat_like(f32::INFINITY);
+        for place in 0..count {
+            work.spans[place] = Span {
+                enter: -everywhere,
+                exit: everywhere,
+            };
+            work.leaves[place % MOST_PACKETS] = everywhere;
+        }
+        return;
+    }
+    let mut leaf = first;
+    while leaf != last {
+        let number = like.splat_like(view.scene.number(leaf) as f32);
+        let own = if leaf == first { 0 } else { MOST_PACKETS };
+        leaf_spans(view, leaf, which, &mut work.rays, &mut work.spans[own..], 1);
+        work.computed += count as u64;
+        for place in 0..count {
+            let before = if leaf == first { number } else { work.leaves[place % MOST_PACKETS] };
+            work.leaves[place % MOST_PACKETS] = before;
+            if leaf != first {
+                let (all, one) = (work.spans[place], work.spans[own + place]);
+                let lower = T::select(one.enter.eq(all.enter), number.min(before), before);
+                work.leaves[place % MOST_PACKETS] = T::select(all.enter.lt(one.enter), number, lower);
+                work.spans[place] = all.intersection(one);
+            }
+        }
+        leaf += 1;
+    }
+}
+
+/// A product of so many solids and of the complements of the part's other leaves, whose boxes are in `cuts`, cast at by
+/// some packets of a tile.
+#[inline(always)]
+#[allow(clippy::too_many_arguments, reason = "what a tile is made of, passed through")]
+pub(crate) fn cast<T: Lanes, L: Solid>(
+    token: T::Token,
+    view: &View<'_, '_, L>,
+    beam: &Beam,
+    part: Range<u32>,
+    positives: u32,
+    cuts: Option<&Tree>,
+    which: u32,
+    work: &mut Workspace<T, L>,
+) {
+    let first_cut = part.start + positives;
+    intersect(view, part.start, first_cut, which, work);
+
+    if let Some(cuts) = cuts {
+        let alive = begin(which, work);
+        if alive == 0 {
+            return;
+        }
+        gather(token, cuts, beam, first_cut, alive, work);
+        loop {
+            let mut moved = false;
+            let mut from = 0;
+            while from < work.cuts.len() {
+                let to = (from + MOST_CUTS).min(work.cuts.len());
+                moved |= push(view, from, to, which, alive, work);
+                from = to;
+            }
+            // What was moved by some may have come into others that were looked at before; up to 64 see to that
+            // themselves.
+            if !moved || work.cuts.len() <= MOST_CUTS {
+                break;
+            }
+        }
+    }
+
+    let mut bits = which;
+    let mut place = 0;
+    while bits != 0 {
+        let packet = bits.trailing_zeros() as usize;
+        bits &= bits - 1;
+        let (span, leaf) = (work.spans[place], work.leaves[place % MOST_PACKETS]);
+        place += 1;
+        let (_, _, start) = work.rays.packet(packet);
+        let entered = span.enter.lt(span.exit);
+        let ahead = start.lt(span.enter);
+        if (entered & !ahead & start.lt(span.exit)).any() {
+            work.met.inside |= 1 << packet;
+        }
+        let t = T::select(entered & ahead, span.enter, start.splat_like(f32::INFINITY));
+        work.met.enter(packet, t, leaf);
+    }
+}
+
+/// Moves the entries of some packets to where their rays start, if that is later, and says which packets have a ray that is
+/// then inside of all solids and not yet nearer elsewhere.
+#[inline(always)]
+fn begin<T: Lanes, L>(which: u32, work: &mut Workspace<T, L>) -> u32 {
+    let mut alive = 0;
+    let mut bits = which;
+    let mut place = 0;
+    while bits != 0 {
+        let packet = bits.trailing_zeros() as usize;
+        bits &= bits - 1;
+        let span = work.spans[place];
+        let (_, _, start) = work.rays.packet(packet);
+        let (nearest, _) = work.met.packet(packet);
+        let enter = span.enter.max(start);
+        work.spans[place].enter = enter;
+        if (enter.lt(span.exit) & enter.le(nearest)).any() {
+            alive |= 1 << packet;
+        }
+        place += 1;
+    }
+    alive
+}
+
+/// The complements that a beam may meet, with those of some packets that do.
+#[inline(always)]
+fn gather<T: Lanes, L>(token: T::Token, cuts: &Tree, beam: &Beam, first: u32, which: u32, work: &mut Workspace<T, L>) {
+    work.cuts.clear();
+    let mut walk = Walk::new(cuts);
+    while let Some((item, met)) = walk.next::<T>(token, cuts, beam, f32::INFINITY) {
+        let mut bits = met.bits;
+        while bits != 0 {
+            let place = bits.trailing_zeros() as usize % FANOUT;
+            bits &= bits - 1;
+            let touched = which & packets_within::<T>(met.left[place], met.right[place], met.top[place], met.bottom[place]);
+            if touched != 0 {
+                work.cuts.push((first + (item + place) as u32, touched));
+            }
+        }
+    }
+}
+
+/// Moves the entries of some packets out of up to 64 complements, until they are in none, and notes who moved them last;
+/// says whether any was moved.
+#[inline(always)]
+fn push<T: Lanes, L: Solid>(view: &View<'_, '_, L>, from: usize, to: usize, which: u32, alive: u32, work: &mut Workspace<T, L>) -> bool {
+    // The spans of each complement lie one after the other, packet by packet; `seen_by` says of each packet by which
+    // complements it is touched.
+    let mut seen_by = [0_u64; MOST_PACKETS];
+    let mut starts = [0_usize; MOST_CUTS];
+    let mut end = MOST_PACKETS;
+    for cut in 0..to - from {
+        let (place, touched) = work.cuts[from + cut];
+        let touched = touched & alive;
+        starts[cut % MOST_CUTS] = end;
+        leaf_spans(view, place, touched, &mut work.rays, &mut work.spans[end..], 1);
+        end += touched.count_ones() as usize;
+        let mut bits = touched;
+        while bits != 0 {
+            seen_by[bits.trailing_zeros() as usize % MOST_PACKETS] |= 1 << cut;
+            bits &= bits - 1;
+        }
+    }
+    work.computed += (end - MOST_PACKETS) as u64;
+
+    let mut moved = false;
+    let mut bits = alive;
+    while bits != 0 {
+        let packet = bits.trailing_zeros() as usize;
+        bits &= bits - 1;
+        let below = (1_u32 << packet) - 1;
+        let place = (which & below).count_ones() as usize;
+        let Span { enter, exit } = work.spans[place];
+        let (mut t, mut leaf) = (enter, work.leaves[place % MOST_PACKETS]);
+        let all = seen_by[packet % MOST_PACKETS];
+        let several = all & all.wrapping_sub(1) != 0;
+        loop {
+            let mut pushed = false;
+            let mut waiting = all;
+            while waiting != 0 {
+                let cut = waiting.trailing_zeros() as usize;
+                waiting &= waiting - 1;
+                let (leaf_place, touched) = work.cuts[from + cut];
+                let own = work.spans[starts[cut % MOST_CUTS] + (touched & alive & below).count_ones() as usize];
+                let within = own.contains_after(t) & t.lt(exit);
+                if within.any() {
+                    let number = t.splat_like(view.scene.number(leaf_place) as f32);
+                    t = T::select(within, own.exit, t);
+                    leaf = T::select(within, number, leaf);
+                    pushed = true;
+                }
+            }
+            moved |= pushed;
+            // One complement alone is left for good.
+            if !pushed || !several {
+                break;
+            }
+        }
+        // Of all that end where the last one does the lowest number counts.
+        let mut waiting = all;
+        while waiting != 0 {
+            let cut = waiting.trailing_zeros() as usize;
+            waiting &= waiting - 1;
+            let (leaf_place, touched) = work.cuts[from + cut];
+            let own = work.spans[starts[cut % MOST_CUTS] + (touched & alive & below).count_ones() as usize];
+            let number = t.splat_like(view.scene.number(leaf_place) as f32);
+            leaf = T::select(own.exit.eq(t) & number.lt(leaf), number, leaf);
+        }
+        work.spans[place].enter = t;
+        work.leaves[place % MOST_PACKETS] = leaf;
+    }
+    moved
+}

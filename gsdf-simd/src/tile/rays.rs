@@ -1,0 +1,164 @@
+//! The rays of a tile, in packets of four by two or four by four.
+
+use super::pixels::{BLOCK_SIDE, TILE_SIDE};
+use crate::lanes::Lanes;
+use crate::packet::{Packet, scaled};
+use gsdf_nostd::{Line, Program, Raster, Toward, V3};
+
+/// The most packets that a tile is made of: those of eight rays.
+pub(crate) const MOST_PACKETS: usize = 32;
+
+/// How many packets stand side by side in a tile.
+const COLUMNS: usize = TILE_SIDE / BLOCK_SIDE;
+
+/// How many packets of these lanes a tile is made of.
+pub(crate) const fn packets<T: Lanes>() -> usize {
+    TILE_SIDE * TILE_SIDE / T::LANES
+}
+
+/// How many rows of pixels a packet has.
+const fn height<T: Lanes>() -> usize {
+    T::LANES / BLOCK_SIDE
+}
+
+/// Where in the planes of a tile a packet's pixels start.
+#[inline(always)]
+pub(crate) fn start_of<T: Lanes>(packet: usize) -> usize {
+    let (column, row) = (packet % COLUMNS, packet / COLUMNS);
+    let top = row * height::<T>();
+    (top / BLOCK_SIDE * COLUMNS + column) * BLOCK_SIDE * BLOCK_SIDE + top % BLOCK_SIDE * BLOCK_SIDE
+}
+
+/// The bits of the packets that a rectangle of a tile touches, given in pixels.
+#[inline(always)]
+pub(crate) fn packets_within<T: Lanes>(left: f32, right: f32, top: f32, bottom: f32) -> u32 {
+    let side = TILE_SIDE as f32 - 1.0;
+    // `as` takes what is not a number, or below zero, for zero.
+    let (left, right) = (left as u32, right.min(side) as u32);
+    let (top, bottom) = (top as u32, bottom.min(side) as u32);
+    let (width, height) = (BLOCK_SIDE as u32, height::<T>() as u32);
+    let (first, last) = ((left / width).min(3), right / width);
+    let (highest, lowest) = ((top / height).min(7), bottom / height);
+    let columns = ((2 << last) - 1) & !((1 << first) - 1);
+    let below = |row: u32| ((1_u64 << (4 * row)) - 1) as u32;
+    let rows = below(lowest + 1) & !below(highest);
+    (columns * 0x1111_1111) & rows
+}
+
+/// The rays of a tile.
+#[derive(Debug)]
+pub(crate) struct Rays<T: Lanes> {
+    /// The lines of the packets, in the world.
+    lines: [Line<T>; MOST_PACKETS],
+    /// By what their directions are scaled.
+    scales: [T; MOST_PACKETS],
+    /// Where the rays start.
+    starts: [T; MOST_PACKETS],
+    /// The lines in another frame, as far as `posed` says.
+    local: [Line<T>; MOST_PACKETS],
+    frame: u16,
+    posed: u32,
+}
+
+impl<T: Lanes> Rays<T> {
+    #[inline(always)]
+    pub(crate) fn new(token: T::Token) -> Self {
+        let one = T::splat(token, 1.0);
+        let ones = V3::new(one, one, one);
+        let line = Line {
+            origin: ones,
+            toward: Toward::without_components(ones),
+        };
+        Self {
+            lines: [line; MOST_PACKETS],
+            scales: [one; MOST_PACKETS],
+            starts: [one; MOST_PACKETS],
+            local: [line; MOST_PACKETS],
+            frame: 0,
+            posed: 0,
+        }
+    }
+
+    /// Aims the rays through the pixels from (`x`, `y`) on. Where all are known to be `valid` none is checked; without
+    /// `components` their reciprocals are left out.
+    #[inline(always)]
+    pub(crate) fn aim(&mut self, token: T::Token, raster: &Raster, x: u32, y: u32, valid: bool, components: bool) {
+        self.posed = 0;
+        const ACROSS: [f32; 16] = [0.5, 1.5, 2.5, 3.5, 0.5, 1.5, 2.5, 3.5, 0.5, 1.5, 2.5, 3.5, 0.5, 1.5, 2.5, 3.5];
+        const DOWN: [f32; 16] = [0.5, 0.5, 0.5, 0.5, 1.5, 1.5, 1.5, 1.5, 2.5, 2.5, 2.5, 2.5, 3.5, 3.5, 3.5, 3.5];
+        let (across, down) = (T::load(token, &ACROSS), T::load(token, &DOWN));
+        let places = self.lines.iter_mut().zip(&mut self.scales).zip(&mut self.starts);
+        for (packet, ((line, scale), start)) in places.enumerate().take(packets::<T>()) {
+            let left = x as f32 + (packet % COLUMNS * BLOCK_SIDE) as f32;
+            let top = y as f32 + (packet / COLUMNS * height::<T>()) as f32;
+            let (x, y) = (across + across.splat_like(left), down + down.splat_like(top));
+            if valid {
+                let (origin, direction) = raster.line(x, y);
+                let (direction, by) = scaled(direction);
+                let toward = if components { Toward::new(direction) } else { Toward::without_components(direction) };
+                *line = Line { origin, toward };
+                (*scale, *start) = (by, x.splat_like(0.0));
+            } else {
+                (*line, *scale, *start) = Packet::through(raster, x, y).into_parts();
+            }
+        }
+    }
+
+    /// The lines of all packets, in a frame; those of `which` are asked for.
+    #[inline(always)]
+    pub(crate) fn lines_in<L>(&mut self, frame: u16, program: &Program<'_, L>, which: u32) -> &[Line<T>] {
+        let Some(pose) = program.pose(frame) else {
+            return &self.lines;
+        };
+        if self.frame != frame {
+            self.frame = frame;
+            self.posed = 0;
+        }
+        let mut missing = which & !self.posed;
+        while missing != 0 {
+            let packet = missing.trailing_zeros() as usize;
+            missing &= missing - 1;
+            if let (Some(local), Some(line)) = (self.local.get_mut(packet), self.lines.get(packet)) {
+                *local = pose.line_to_local(line);
+            }
+        }
+        self.posed |= which;
+        &self.local
+    }
+
+    /// The line of a packet in the world, by what it is scaled, and where it starts.
+    #[inline(always)]
+    pub(crate) fn packet(&self, packet: usize) -> (&Line<T>, T, T) {
+        let packet = packet % MOST_PACKETS;
+        (&self.lines[packet], self.scales[packet], self.starts[packet])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{packets, packets_within, start_of};
+    use crate::lanes::F32x8;
+    use crate::tile::pixels::{TILE_PIXELS, Tile};
+
+    #[test]
+    fn packets_fill_the_planes() {
+        let mut starts: Vec<_> = (0..packets::<F32x8>()).map(start_of::<F32x8>).collect();
+        // The packet in column 2 and row 3 of the tile starts at its pixel (8, 6).
+        assert_eq!(starts[3 * 4 + 2], Tile::index(8, 6));
+        starts.sort_unstable();
+        assert!(starts.iter().enumerate().all(|(place, start)| *start == 8 * place));
+        assert_eq!(starts.len() * 8, TILE_PIXELS);
+    }
+
+    #[test]
+    fn rectangles_touch_packets() {
+        let touched = packets_within::<F32x8>;
+        assert_eq!(touched(0.0, 16.0, 0.0, 16.0), u32::MAX);
+        assert_eq!(touched(-1e6, 1e6, -1e6, 1e6), u32::MAX);
+        assert_eq!(touched(0.0, 0.5, 0.0, 0.5), 1);
+        assert_eq!(touched(4.0, 4.5, 2.0, 2.5), 1 << 5);
+        assert_eq!(touched(3.9, 4.1, 0.0, 1.0), 0b11);
+        assert_eq!(touched(15.5, 20.0, 15.5, 20.0), 1 << 31);
+        assert_eq!(touched(0.0, 1.0, 1.9, 2.1), 0b1_0001);
+    }
+}

@@ -1,0 +1,147 @@
+//! What is known of a tile while its parts are visited, and where it is kept.
+
+use super::pixels::Tile;
+use super::rays::{MOST_PACKETS, Rays, packets};
+use crate::lanes::Lanes;
+use gsdf_nostd::{Mask, Node, Span};
+
+/// How many complements of a part are looked at together.
+pub(crate) const MOST_CUTS: usize = 64;
+
+/// The rays of a tile, and the nearest that each has met so far.
+#[derive(Debug)]
+pub(crate) struct Met<T: Lanes> {
+    /// Where each ray first enters what was visited, in the parameter of its line; infinite where it does not.
+    t: [T; MOST_PACKETS],
+    /// The number of the leaf there.
+    leaf: [T; MOST_PACKETS],
+    /// The packets of which a ray starts inside what was visited.
+    pub(crate) inside: u32,
+}
+
+impl<T: Lanes> Met<T> {
+    #[inline(always)]
+    pub(crate) fn new(token: T::Token) -> Self {
+        let infinity = T::splat(token, f32::INFINITY);
+        Self {
+            t: [infinity; MOST_PACKETS],
+            leaf: [infinity; MOST_PACKETS],
+            inside: 0,
+        }
+    }
+
+    /// Forgets everything.
+    #[inline(always)]
+    pub(crate) fn clear(&mut self, token: T::Token) {
+        let infinity = T::splat(token, f32::INFINITY);
+        self.inside = 0;
+        for (t, leaf) in self.t.iter_mut().zip(&mut self.leaf).take(packets::<T>()) {
+            (*t, *leaf) = (infinity, infinity);
+        }
+    }
+
+    /// Where the rays of a packet first enter what was visited, and the leaf they meet there.
+    #[inline(always)]
+    pub(crate) fn packet(&self, packet: usize) -> (T, T) {
+        let packet = packet % MOST_PACKETS;
+        (self.t[packet], self.leaf[packet])
+    }
+
+    /// Where the rays of a packet enter another part, or do not, at +inf; and the leaf there. Of two at the same place
+    /// the one with the lower number counts.
+    #[inline(always)]
+    pub(crate) fn enter(&mut self, packet: usize, t: T, leaf: T) {
+        let packet = packet % MOST_PACKETS;
+        let (before, other) = (self.t[packet], self.leaf[packet]);
+        let nearer = t.lt(before) | (t.eq(before) & leaf.lt(other));
+        self.t[packet] = T::select(nearer, t, before);
+        self.leaf[packet] = T::select(nearer, leaf, other);
+    }
+
+    /// The same, whatever was before.
+    #[inline(always)]
+    pub(crate) fn replace(&mut self, packet: usize, t: T, leaf: T) {
+        let packet = packet % MOST_PACKETS;
+        (self.t[packet], self.leaf[packet]) = (t, leaf);
+    }
+
+    /// Those of some packets that still have a ray which has met nothing nearer than `depth`.
+    #[inline(always)]
+    pub(crate) fn open(&self, rays: &Rays<T>, which: u32, depth: f32) -> u32 {
+        let mut open = 0;
+        let mut bits = which;
+        while bits != 0 {
+            let packet = bits.trailing_zeros() as usize % MOST_PACKETS;
+            bits &= bits - 1;
+            let (_, scale, _) = rays.packet(packet);
+            if scale.splat_like(depth).le(self.t[packet] * scale).any() {
+                open |= 1 << packet;
+            }
+        }
+        open
+    }
+
+    /// The depth beyond which no ray of the tile looks for anything.
+    #[inline(always)]
+    pub(crate) fn farthest(&self, rays: &Rays<T>) -> f32 {
+        let (_, scale, _) = rays.packet(0);
+        let mut farthest = self.t[0] * scale;
+        for packet in 1..packets::<T>() {
+            let (_, scale, _) = rays.packet(packet);
+            farthest = farthest.max(self.t[packet % MOST_PACKETS] * scale);
+        }
+        farthest.greatest()
+    }
+}
+
+/// Memory for the rendering of tiles, kept from one to the next.
+#[derive(Debug)]
+pub(crate) struct Workspace<T: Lanes, L> {
+    pub(crate) rays: Rays<T>,
+    pub(crate) met: Met<T>,
+    pub(crate) tile: Box<Tile>,
+    /// Spans, packet by packet or leaf by leaf.
+    pub(crate) spans: Vec<Span<T>>,
+    /// The leaves at the entries of the first of them.
+    pub(crate) leaves: [T; MOST_PACKETS],
+    /// What a march walks: a program without what the tile's rays cannot meet.
+    pub(crate) nodes: Vec<Node<L>>,
+    /// The places of its leaves in the scene.
+    pub(crate) places: Vec<u32>,
+    /// The places of the leaves of what is reduced, in order.
+    pub(crate) every_place: Vec<u32>,
+    /// Which of them the tile's rays may meet.
+    pub(crate) live: Vec<bool>,
+    /// The operands that wait while a program is reduced: whether they are known to be inside or outside, and where
+    /// their nodes and leaves start.
+    pub(crate) waiting: Vec<super::reduce::Waiting>,
+    /// The complements that the tile's rays may meet, with the packets they touch.
+    pub(crate) cuts: Vec<(u32, u32)>,
+    /// How many spans of packets were computed.
+    pub(crate) computed: u64,
+}
+
+impl<T: Lanes, L> Workspace<T, L> {
+    #[inline(always)]
+    pub(crate) fn new(token: T::Token) -> Self {
+        let nothing = T::splat(token, f32::INFINITY);
+        let empty = Span {
+            enter: nothing,
+            exit: -nothing,
+        };
+        Self {
+            rays: Rays::new(token),
+            met: Met::new(token),
+            tile: Box::new(Tile::NOTHING),
+            spans: vec![empty; (1 + MOST_CUTS) * MOST_PACKETS],
+            leaves: [nothing; MOST_PACKETS],
+            nodes: Vec::new(),
+            places: Vec::new(),
+            every_place: Vec::new(),
+            live: Vec::new(),
+            waiting: Vec::new(),
+            cuts: Vec::new(),
+            computed: 0,
+        }
+    }
+}
