@@ -37,7 +37,7 @@ mod tile;
 
 #[cfg(feature = "std")]
 pub use image::{Band, Canvas, Image, Pixel, Planes, Tally};
-pub use lanes::{F32x8, LaneMask, Lanes, MOST_LANES, Mask8};
+pub use lanes::{F32x8, LaneMask, Lanes, MOST_LANES, Mask8, Work};
 #[cfg(feature = "std")]
 pub use packet::scratch;
 #[cfg(feature = "std")]

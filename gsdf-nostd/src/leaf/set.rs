@@ -104,18 +104,35 @@ macro_rules! leaf_set {
                 }
 
                 #[inline(always)]
-                fn spans_lifted<T: Real>(&self, seen: &Seen<T::Scalar>, lines: &[Line<T>], which: u32, spans: &mut [Span<T>], step: usize) {
-                    match (self, seen) {
-                        $((Self::$variant(solid), Seen::$variant(seen)) => solid.spans_lifted(seen, lines, which, spans, step),)+
-                        #[allow(unreachable_patterns)]
-                        _ => {}
+                fn spans<T: Real>(
+                    &self,
+                    seen: Option<&Seen<T::Scalar>>,
+                    lines: &[Line<T>],
+                    which: u32,
+                    spans: &mut [Span<T>],
+                    step: usize,
+                ) {
+                    match self {
+                        $(Self::$variant(solid) => {
+                            let seen = match seen {
+                                Some(Seen::$variant(seen)) => Some(seen),
+                                _ => None,
+                            };
+                            solid.spans(seen, lines, which, spans, step);
+                        })+
                     }
                 }
 
                 #[inline(always)]
-                fn spans_along<T: Real>(&self, lines: &[Line<T>], which: u32, spans: &mut [Span<T>], step: usize) {
+                fn surface_on<T: Real>(&self, seen: Option<&Seen<T::Scalar>>, line: &Line<T>, t: T) -> Surface<T> {
                     match self {
-                        $(Self::$variant(solid) => solid.spans_along(lines, which, spans, step),)+
+                        $(Self::$variant(solid) => {
+                            let seen = match seen {
+                                Some(Seen::$variant(seen)) => Some(seen),
+                                _ => None,
+                            };
+                            solid.surface_on(seen, line, t)
+                        })+
                     }
                 }
 

@@ -81,36 +81,39 @@ pub trait Solid: Copy {
         self.surface(&self.seen_from(line.origin), &line.toward, t)
     }
 
-    /// [`span_lifted`](Solid::span_lifted) along many lines from the one origin: those of `lines` whose bits are set in
-    /// `which`, in ascending order, into every `step`-th place of `spans`. What is beyond the end of a slice is left out.
+    /// The spans along many lines: those of `lines` whose bits are set in `which`, in ascending order, into every
+    /// `step`-th place of `spans`. What is beyond the end of a slice is left out. Where all lines start at one origin,
+    /// `seen` is the solid as seen from there.
     ///
-    /// A choice of solids chooses once for all of them.
+    /// A choice of solids chooses once for all lines.
     #[inline(always)]
-    fn spans_lifted<T: Real>(&self, seen: &Self::Seen<T::Scalar>, lines: &[Line<T>], which: u32, spans: &mut [Span<T>], step: usize) {
+    fn spans<T: Real>(&self, seen: Option<&Self::Seen<T::Scalar>>, lines: &[Line<T>], which: u32, spans: &mut [Span<T>], step: usize) {
         let mut bits = which;
         let mut place = 0;
         while bits != 0 {
             let line = bits.trailing_zeros() as usize;
             bits &= bits - 1;
             if let (Some(line), Some(span)) = (lines.get(line), spans.get_mut(place)) {
-                *span = self.span_lifted(seen, &line.toward);
+                let seen = self.seen_or(seen, line);
+                *span = self.span(&seen, &line.toward);
             }
             place += step;
         }
     }
 
-    /// The same along lines that each have an origin of their own: [`span_along`](Solid::span_along).
+    /// The [`surface`](Solid::surface) at `t` on a line from whose origin the solid may have been seen already.
     #[inline(always)]
-    fn spans_along<T: Real>(&self, lines: &[Line<T>], which: u32, spans: &mut [Span<T>], step: usize) {
-        let mut bits = which;
-        let mut place = 0;
-        while bits != 0 {
-            let line = bits.trailing_zeros() as usize;
-            bits &= bits - 1;
-            if let (Some(line), Some(span)) = (lines.get(line), spans.get_mut(place)) {
-                *span = self.span_along(line);
-            }
-            place += step;
+    fn surface_on<T: Real>(&self, seen: Option<&Self::Seen<T::Scalar>>, line: &Line<T>, t: T) -> Surface<T> {
+        self.surface(&self.seen_or(seen, line), &line.toward, t)
+    }
+
+    /// What was seen, for all lanes; or the solid as seen from the origin of a line.
+    #[doc(hidden)]
+    #[inline(always)]
+    fn seen_or<T: Real>(&self, seen: Option<&Self::Seen<T::Scalar>>, line: &Line<T>) -> Self::Seen<T> {
+        match seen {
+            Some(seen) => Self::lift(seen, line.toward.vv),
+            None => self.seen_from(line.origin),
         }
     }
 

@@ -38,6 +38,9 @@ pub trait Lanes: Real<Scalar = f32, Mask: LaneMask> {
     #[must_use]
     fn greatest(self) -> f32;
 
+    /// Does work in a function of its own, which is compiled for the same instructions as its caller.
+    fn outline<W: Work<Self>>(token: Self::Token, work: W) -> W::Output;
+
     /// One lane, if there is one of that number.
     #[inline(always)]
     #[must_use]
@@ -46,6 +49,16 @@ pub trait Lanes: Real<Scalar = f32, Mask: LaneMask> {
         self.store(&mut lanes);
         lanes.get(..Self::LANES)?.get(lane).copied()
     }
+}
+
+/// Work that is compiled once for each lane type, as a function of its own, instead of wherever it is wanted: see
+/// [`Lanes::outline`].
+pub trait Work<T: Lanes> {
+    /// What comes of it.
+    type Output;
+
+    /// Does it. To be inlined always, as everything it calls.
+    fn work(self, token: T::Token) -> Self::Output;
 }
 
 /// The truth values of [`Lanes`].

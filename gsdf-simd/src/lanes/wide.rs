@@ -1,6 +1,6 @@
 //! Eight `f32` in whatever vectors the target has: the portable packet.
 
-use super::{LaneMask, Lanes, padded, put};
+use super::{LaneMask, Lanes, Work, padded, put};
 use core::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 use gsdf_nostd::{Mask, Real};
 use wide::f32x8;
@@ -223,6 +223,10 @@ impl Lanes for F32x8 {
     #[inline(always)]
     fn power_of_two_below(self) -> Self {
         Self(self.0 & f32x8::splat(f32::INFINITY))
+    }
+    #[inline(never)]
+    fn outline<W: Work<Self>>(token: (), work: W) -> W::Output {
+        work.work(token)
     }
     #[inline(always)]
     fn least(self) -> f32 {

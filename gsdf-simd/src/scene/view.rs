@@ -52,12 +52,16 @@ impl<'s, 'a, L: Solid> View<'s, 'a, L> {
         self.raster.camera().projection() == Projection::Pinhole
     }
 
-    /// The leaf in a place of the scene as seen from the eye.
+    /// The leaf in a place of the scene as seen from the eye, where the rays have that in common: what was seen before, or
+    /// what is put into `now`.
     #[inline(always)]
-    pub(crate) fn seen(&self, place: u32, solid: &L, frame: u16) -> L::Seen<f32> {
+    pub(crate) fn seen<'v>(&'v self, place: u32, solid: &L, frame: u16, now: &'v mut Option<L::Seen<f32>>) -> Option<&'v L::Seen<f32>> {
+        if !self.shares_origin() {
+            return None;
+        }
         match self.seen.get(place as usize) {
-            Some(seen) => *seen,
-            None => seen_from(solid, self.scene.program.pose(frame), &self.raster),
+            Some(seen) => Some(seen),
+            None => Some(now.insert(seen_from(solid, self.scene.program.pose(frame), &self.raster))),
         }
     }
 }

@@ -1,7 +1,7 @@
 //! Any part of a program: what the rays of a tile can meet of it is marched.
 
+use super::leaf;
 use super::reduce::{Known, Reduced};
-use super::spans::leaf_spans;
 use super::state::Workspace;
 use crate::lanes::{Lanes, MOST_LANES};
 use crate::scene::{Beam, FANOUT, Form, View, Walk};
@@ -58,7 +58,7 @@ pub(crate) fn cast<T: Lanes, L: Solid>(
         work.every_place.extend(places);
     }
     let known = reduce(nodes, work);
-    march_reduced(view, known, which, all, work);
+    march_reduced(token, view, known, which, all, work);
 }
 
 /// Reduces a program to its live leaves.
@@ -74,9 +74,15 @@ fn reduce<T: Lanes, L: Solid>(nodes: &[Node<L>], work: &mut Workspace<T, L>) -> 
 /// Marches some packets through the reduced program. Where that is `all` there is, what they meet replaces whatever was
 /// found before.
 #[inline(always)]
-fn march_reduced<T: Lanes, L: Solid>(view: &View<'_, '_, L>, known: Known, which: u32, all: bool, work: &mut Workspace<T, L>) {
-    let (_, like, _) = work.rays.packet(0);
-    let nothing = like.splat_like(f32::INFINITY);
+fn march_reduced<T: Lanes, L: Solid>(
+    token: T::Token,
+    view: &View<'_, '_, L>,
+    known: Known,
+    which: u32,
+    all: bool,
+    work: &mut Workspace<T, L>,
+) {
+    let nothing = T::splat(token, f32::INFINITY);
     if known != Known::Open {
         if all {
             let mut bits = which;
@@ -104,8 +110,8 @@ fn march_reduced<T: Lanes, L: Solid>(view: &View<'_, '_, L>, known: Known, which
         if work.spans.len() < count * leaves {
             work.spans.resize(count * leaves, Span { enter: nothing, exit: -nothing });
         }
-        for leaf in 0..leaves {
-            leaf_spans(view, work.places[leaf], some, &mut work.rays, &mut work.spans[leaf..], leaves);
+        for number in 0..leaves {
+            leaf::spans(token, view, work.places[number], some, &mut work.rays, &mut work.spans[number..], leaves);
         }
         work.computed += (count * leaves) as u64;
 
@@ -141,7 +147,7 @@ fn march_reduced<T: Lanes, L: Solid>(view: &View<'_, '_, L>, known: Known, which
                     None => f32::INFINITY,
                 };
             }
-            let leaf = T::load(like.token(), &lanes);
+            let leaf = T::load(token, &lanes);
             if all {
                 work.met.replace(packet, t, leaf);
             } else {

@@ -1,12 +1,12 @@
 //! One tile of an image: its rays are cast at the parts of the scene that their beam meets, from near to far.
 
+mod leaf;
 mod march;
 mod pixels;
 mod product;
 mod rays;
 mod reduce;
 mod shade;
-mod spans;
 mod state;
 
 pub use pixels::{TILE_PIXELS, TILE_SIDE, Tile};
@@ -41,7 +41,7 @@ pub(crate) fn cast<T: Lanes, L: Solid>(token: T::Token, view: &View<'_, '_, L>, 
             None => {}
         }
     }
-    shade::shade(view, &mut work.rays, &work.met, normals, &mut work.tile);
+    shade::shade(token, view, normals, work);
 }
 
 /// What the rays of some packets are cast at.

@@ -1,48 +1,46 @@
 //! A product seen from outside: it is entered at the last of the entries of what must be inside, or where the last of the
 //! complements in the way ends.
 
+use super::leaf;
 use super::rays::{MOST_PACKETS, packets_within};
-use super::spans::leaf_spans;
 use super::state::{MOST_CUTS, Workspace};
 use crate::lanes::Lanes;
 use crate::scene::{Beam, FANOUT, Tree, View, Walk};
 use core::ops::Range;
 use gsdf_nostd::{Mask, Solid, Span};
 
-/// The intersection of the solids in the places from `first` to `last`, along some packets, one after the other at the
-/// start of `work.spans`; and the numbers of the leaves at its entries.
+/// The intersection of the solids in some places, along some packets, one after the other at the start of `work.spans`; and
+/// the numbers of the leaves at its entries.
 #[inline(always)]
-fn intersect<T: Lanes, L: Solid>(view: &View<'_, '_, L>, first: u32, last: u32, which: u32, work: &mut Workspace<T, L>) {
+fn intersect<T: Lanes, L: Solid>(token: T::Token, view: &View<'_, '_, L>, places: Range<u32>, which: u32, work: &mut Workspace<T, L>) {
     let count = which.count_ones() as usize;
-    let (_, like, _) = work.rays.packet(0);
-    if first == last {
-        let everywhere = like.splat_like(f32::INFINITY);
+    let infinity = T::splat(token, f32::INFINITY);
+    if places.is_empty() {
         for place in 0..count {
             work.spans[place] = Span {
-                enter: -everywhere,
-                exit: everywhere,
+                enter: -infinity,
+                exit: infinity,
             };
-            work.leaves[place % MOST_PACKETS] = everywhere;
+            work.leaves[place % MOST_PACKETS] = infinity;
         }
         return;
     }
-    let mut leaf = first;
-    while leaf != last {
-        let number = like.splat_like(view.scene.number(leaf) as f32);
-        let own = if leaf == first { 0 } else { MOST_PACKETS };
-        leaf_spans(view, leaf, which, &mut work.rays, &mut work.spans[own..], 1);
+    for place in places.clone() {
+        let number = T::splat(token, view.scene.number(place) as f32);
+        let is_first = place == places.start;
+        let own = if is_first { 0 } else { MOST_PACKETS };
+        leaf::spans(token, view, place, which, &mut work.rays, &mut work.spans[own..], 1);
         work.computed += count as u64;
-        for place in 0..count {
-            let before = if leaf == first { number } else { work.leaves[place % MOST_PACKETS] };
-            work.leaves[place % MOST_PACKETS] = before;
-            if leaf != first {
-                let (all, one) = (work.spans[place], work.spans[own + place]);
-                let lower = T::select(one.enter.eq(all.enter), number.min(before), before);
-                work.leaves[place % MOST_PACKETS] = T::select(all.enter.lt(one.enter), number, lower);
-                work.spans[place] = all.intersection(one);
+        for packet in 0..count {
+            if is_first {
+                work.leaves[packet % MOST_PACKETS] = number;
+                continue;
             }
+            let (all, one, leaf) = (work.spans[packet], work.spans[own + packet], work.leaves[packet % MOST_PACKETS]);
+            let lower = T::select(one.enter.eq(all.enter), number.min(leaf), leaf);
+            work.leaves[packet % MOST_PACKETS] = T::select(all.enter.lt(one.enter), number, lower);
+            work.spans[packet] = all.intersection(one);
         }
-        leaf += 1;
     }
 }
 
@@ -61,7 +59,7 @@ pub(crate) fn cast<T: Lanes, L: Solid>(
     work: &mut Workspace<T, L>,
 ) {
     let first_cut = part.start + positives;
-    intersect(view, part.start, first_cut, which, work);
+    intersect(token, view, part.start..first_cut, which, work);
 
     if let Some(cuts) = cuts {
         let alive = begin(which, work);
@@ -74,7 +72,7 @@ pub(crate) fn cast<T: Lanes, L: Solid>(
             let mut from = 0;
             while from < work.cuts.len() {
                 let to = (from + MOST_CUTS).min(work.cuts.len());
-                moved |= push(view, from, to, which, alive, work);
+                moved |= push(token, view, from..to, which, alive, work);
                 from = to;
             }
             // What was moved by some may have come into others that were looked at before; up to 64 see to that
@@ -147,17 +145,25 @@ fn gather<T: Lanes, L>(token: T::Token, cuts: &Tree, beam: &Beam, first: u32, wh
 /// Moves the entries of some packets out of up to 64 complements, until they are in none, and notes who moved them last;
 /// says whether any was moved.
 #[inline(always)]
-fn push<T: Lanes, L: Solid>(view: &View<'_, '_, L>, from: usize, to: usize, which: u32, alive: u32, work: &mut Workspace<T, L>) -> bool {
+fn push<T: Lanes, L: Solid>(
+    token: T::Token,
+    view: &View<'_, '_, L>,
+    some: Range<usize>,
+    which: u32,
+    alive: u32,
+    work: &mut Workspace<T, L>,
+) -> bool {
     // The spans of each complement lie one after the other, packet by packet; `seen_by` says of each packet by which
     // complements it is touched.
     let mut seen_by = [0_u64; MOST_PACKETS];
     let mut starts = [0_usize; MOST_CUTS];
     let mut end = MOST_PACKETS;
-    for cut in 0..to - from {
+    let from = some.start;
+    for cut in 0..some.len() {
         let (place, touched) = work.cuts[from + cut];
         let touched = touched & alive;
         starts[cut % MOST_CUTS] = end;
-        leaf_spans(view, place, touched, &mut work.rays, &mut work.spans[end..], 1);
+        leaf::spans(token, view, place, touched, &mut work.rays, &mut work.spans[end..], 1);
         end += touched.count_ones() as usize;
         let mut bits = touched;
         while bits != 0 {

@@ -106,7 +106,7 @@ impl<T: Lanes> Rays<T> {
 
     /// The lines of all packets, in a frame; those of `which` are asked for.
     #[inline(always)]
-    pub(crate) fn lines_in<L>(&mut self, frame: u16, program: &Program<'_, L>, which: u32) -> &[Line<T>] {
+    pub(crate) fn lines_in<L>(&mut self, frame: u16, program: &Program<'_, L>, which: u32) -> &[Line<T>; MOST_PACKETS] {
         let Some(pose) = program.pose(frame) else {
             return &self.lines;
         };
@@ -124,6 +124,13 @@ impl<T: Lanes> Rays<T> {
         }
         self.posed |= which;
         &self.local
+    }
+
+    /// The line of one packet in a frame.
+    #[inline(always)]
+    pub(crate) fn line_in<L>(&mut self, frame: u16, program: &Program<'_, L>, packet: usize) -> &Line<T> {
+        let packet = packet % MOST_PACKETS;
+        &self.lines_in(frame, program, 1 << packet)[packet]
     }
 
     /// The line of a packet in the world, by what it is scaled, and where it starts.
