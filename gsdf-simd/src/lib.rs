@@ -29,6 +29,8 @@ mod packet;
 
 #[cfg(feature = "std")]
 pub use image::{Band, Canvas, Image, Pixel, Planes, Tally};
+#[cfg(all(feature = "std", target_arch = "x86_64"))]
+pub use lanes::{Avx2Mask, Avx2x8, Avx512Mask, Avx512x16};
 pub use lanes::{F32x8, LaneMask, Lanes, MOST_LANES, Mask8};
 #[cfg(feature = "std")]
 pub use packet::scratch;

@@ -205,7 +205,11 @@ impl Real for F32x8 {
 
 impl Lanes for F32x8 {
     type Token = ();
+    type Array = [f32; 8];
 
+    fn detect() -> Option<()> {
+        Some(())
+    }
     #[inline(always)]
     fn splat((): (), value: f32) -> Self {
         Self(f32x8::splat(value))
@@ -216,6 +220,10 @@ impl Lanes for F32x8 {
     }
     #[inline(always)]
     fn token(self) {}
+    #[inline(always)]
+    fn to_array(self) -> [f32; 8] {
+        Self::to_array(self)
+    }
     #[inline(always)]
     fn store(self, place: &mut [f32]) {
         put(self.to_array(), place);
@@ -233,6 +241,10 @@ impl Lanes for F32x8 {
     fn greatest(self) -> f32 {
         let [a, b, c, d, e, f, g, h] = self.to_array();
         a.max(b).max(c.max(d)).max(e.max(f).max(g.max(h)))
+    }
+    #[inline(always)]
+    fn vectorize<R>((): (), work: impl FnOnce() -> R) -> R {
+        work()
     }
 }
 
