@@ -25,6 +25,7 @@
 #[cfg(feature = "std")]
 mod image;
 mod lanes;
+mod level;
 mod packet;
 
 #[cfg(feature = "std")]
@@ -32,6 +33,7 @@ pub use image::{Band, Canvas, Image, Pixel, Planes, Tally};
 #[cfg(all(feature = "std", target_arch = "x86_64"))]
 pub use lanes::{Avx2Mask, Avx2x8, Avx512Mask, Avx512x16};
 pub use lanes::{F32x8, LaneMask, Lanes, MOST_LANES, Mask8};
+pub use level::{Level, LevelError, Work};
 #[cfg(feature = "std")]
 pub use packet::scratch;
 pub use packet::{EMPTY, Hits, Packet};
