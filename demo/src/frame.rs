@@ -1,8 +1,8 @@
 //! A canvas of the demo's own: what the ray of every pixel meets, with the face, which a ray that goes on from there wants to know.
 
 use glam::Vec3;
-use gsdf_nostd::Mask;
-use gsdf_simd::{Band, Canvas, Hits};
+use gsdf_nostd::{Mask, Surface};
+use gsdf_simd::{Band, Canvas, Hits, LaneMask, Lanes, MOST_LANES};
 
 /// What one ray met.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -17,24 +17,30 @@ pub struct Met {
     pub face: u8,
 }
 
-/// What every lane of a packet met.
+/// What every lane of a packet met; nothing beyond its last lane.
+#[inline(always)]
 #[must_use]
-pub fn met(hits: &Hits) -> [Option<Met>; 8] {
+pub fn met<T: Lanes>(hits: &Hits<T>) -> [Option<Met>; MOST_LANES] {
+    let mut met = [None; MOST_LANES];
     if !hits.hit.any() {
-        return [None; 8];
+        return met;
     }
     let bits = hits.hit.to_bits();
-    let surface = hits.met.surface;
-    let (t, leaf, face) = (hits.t.to_array(), hits.met.leaf.to_array(), surface.face.to_array());
-    let normal = [surface.normal.x, surface.normal.y, surface.normal.z].map(gsdf_simd::F32x8::to_array);
-    core::array::from_fn(|lane| {
-        (bits >> lane & 1 == 1).then(|| Met {
-            t: t[lane],
-            normal: Vec3::from(normal.map(|lanes| lanes[lane])),
-            leaf: leaf[lane] as u32,
-            face: face[lane] as u8,
-        })
-    })
+    let Surface { normal, face } = hits.met.surface;
+    let [t, leaf, face, x, y, z] = [hits.t, hits.met.leaf, face, normal.x, normal.y, normal.z].map(T::to_array);
+    let normals = x.as_ref().iter().zip(y.as_ref()).zip(z.as_ref());
+    let lanes = t.as_ref().iter().zip(leaf.as_ref()).zip(face.as_ref()).zip(normals);
+    for ((lane, met), (((t, leaf), face), ((x, y), z))) in met.iter_mut().enumerate().zip(lanes) {
+        if bits >> lane & 1 == 1 {
+            *met = Some(Met {
+                t: *t,
+                normal: Vec3::new(*x, *y, *z),
+                leaf: *leaf as u32,
+                face: *face as u8,
+            });
+        }
+    }
+    met
 }
 
 /// The pixels of a picture, row by row from the top.
@@ -82,7 +88,8 @@ pub struct FrameBand<'b> {
 }
 
 impl Band for FrameBand<'_> {
-    fn put(&mut self, x: u32, y: u32, count: usize, hits: &Hits) {
+    #[inline(always)]
+    fn put<T: Lanes>(&mut self, x: u32, y: u32, count: usize, hits: &Hits<T>) {
         let start = y as usize * self.width + x as usize;
         for (pixel, met) in self.pixels.iter_mut().skip(start).take(count).zip(met(hits)) {
             *pixel = met;

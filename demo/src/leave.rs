@@ -5,7 +5,7 @@
 use crate::frame::{Met, met};
 use glam::Vec3;
 use gsdf_nostd::{Line, Mask, OnSurface, Program, Ray, Real, Span, Toward, V3, march};
-use gsdf_simd::{F32x8, Hits, scratch};
+use gsdf_simd::{F32x8, Hits, MOST_LANES, scratch};
 
 /// A place on a surface.
 #[derive(Clone, Copy, Debug)]
@@ -83,7 +83,7 @@ impl<'a> Leaver<'a> {
                     sweeps: found.sweeps,
                 })
             } else {
-                [None; 8]
+                [None; MOST_LANES]
             };
             ways.iter()
                 .zip(seen)

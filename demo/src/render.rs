@@ -10,7 +10,7 @@ use crate::shade::{Sample, Shader};
 use anyhow::{Context, Result};
 use glam::Vec3;
 use gsdf_nostd::{March, Program, Raster, Span};
-use gsdf_simd::{F32x8, Image, Packet, scratch};
+use gsdf_simd::{F32x8, Image, MOST_LANES, Packet, scratch};
 use image::RgbImage;
 use rayon::prelude::*;
 use std::time::{Duration, Instant};
@@ -201,7 +201,9 @@ impl<'a> Painter<'a> {
             let lanes = |axis: usize| F32x8::new(core::array::from_fn(|lane| chunk[lane.min(chunk.len() - 1)].1[axis]));
             let packet = Packet::through(&self.raster, lanes(0), lanes(1));
             // The scratch memory was made for this program.
-            let seen = packet.cast(&self.program, &mut self.spans).map_or([None; 8], |hits| met(&hits));
+            let seen = packet
+                .cast(&self.program, &mut self.spans)
+                .map_or([None; MOST_LANES], |hits| met(&hits));
             for ((x, place, part), met) in chunk.iter().zip(seen) {
                 let seed = self.seed(*x as u32, y).wrapping_mul(31).wrapping_add(part + 1);
                 samples.push(self.sample(*place, met, seed));

@@ -77,6 +77,12 @@ impl<T: Real> Span<T> {
         T::select(t.lt(self.enter), self.enter, ahead)
     }
 
+    /// Whether the ray enters or leaves at `t`.
+    #[inline(always)]
+    pub(crate) fn ends_at(self, t: T) -> T::Mask {
+        self.enter.eq(t) | self.exit.eq(t)
+    }
+
     /// Whether the ray is inside just before `t`.
     #[inline(always)]
     pub fn contains_before(self, t: T) -> T::Mask {

@@ -1,9 +1,10 @@
 //! Whole images, on all cores.
 
-use crate::lanes::F32x8;
-use crate::packet::{Hits, Packet, scratch};
+use crate::lanes::{LaneMask, Lanes, MOST_LANES};
+use crate::level::{Level, Work};
+use crate::packet::{Hits, Packet};
 use core::ops::Range;
-use gsdf_nostd::{Program, Projection, Raster, SeenFrom, Solid, V3};
+use gsdf_nostd::{Anywhere, Program, Projection, Raster, SeenFrom, Solid, Span, V3};
 use rayon::prelude::*;
 
 /// How many rows a thread takes at a time.
@@ -14,6 +15,7 @@ const BAND_ROWS: u32 = 16;
 pub struct Image<'a, L> {
     program: Program<'a, L>,
     raster: Raster,
+    level: Level,
 }
 
 /// One pixel as a record of 20 bytes.
@@ -82,14 +84,32 @@ pub trait Canvas {
 /// A horizontal part of a [`Canvas`].
 pub trait Band {
     /// Takes the first `count` lanes: the pixels from `x` on in row `y` of the band.
-    fn put(&mut self, x: u32, y: u32, count: usize, hits: &Hits);
+    ///
+    /// Runs in the midst of what is compiled for the lanes' instructions, if it is `#[inline(always)]`.
+    fn put<T: Lanes>(&mut self, x: u32, y: u32, count: usize, hits: &Hits<T>);
 }
 
 impl<'a, L: Solid + Sync> Image<'a, L> {
-    /// The image of a program.
+    /// The image of a program, rendered at the [best level](Level::best) of this machine.
     #[must_use]
     pub fn new(program: Program<'a, L>, raster: Raster) -> Self {
-        Self { program, raster }
+        Self {
+            program,
+            raster,
+            level: Level::best(),
+        }
+    }
+
+    /// The same image rendered at another level; its pixels are the same.
+    #[must_use]
+    pub fn at_level(self, level: Level) -> Self {
+        Self { level, ..self }
+    }
+
+    /// The level at which it is rendered.
+    #[must_use]
+    pub fn level(&self) -> Level {
+        self.level
     }
 
     /// Casts a ray through the centre of every pixel, on the threads of the current `rayon` pool. The pixels do not
@@ -98,20 +118,7 @@ impl<'a, L: Solid + Sync> Image<'a, L> {
     where
         L::Seen<f32>: Send + Sync,
     {
-        let (width, height) = (self.raster.width(), self.raster.height());
-        let seen = self.seen();
-        let bands = canvas.bands(width, BAND_ROWS);
-        bands
-            .into_par_iter()
-            .zip((0..height).into_par_iter().step_by(BAND_ROWS as usize))
-            .map_init(
-                || scratch(self.program.leaves()),
-                |spans, (mut band, top)| {
-                    let rows = top..(top + BAND_ROWS).min(height);
-                    self.render_rows(rows, seen.as_deref(), spans, &mut band)
-                },
-            )
-            .reduce(Tally::default, Tally::joined)
+        self.level.run(Rendering { image: self, canvas })
     }
 
     /// What depends on the origin alone, if all rays share it: once per image.
@@ -121,40 +128,78 @@ impl<'a, L: Solid + Sync> Image<'a, L> {
         shared.then(|| self.program.seen_from(eye).collect())
     }
 
-    fn render_rows<B: Band>(
+    /// Renders rows of pixels, with scratch memory for the spans of one packet.
+    #[inline(always)]
+    fn render_rows<T: Lanes, B: Band>(
         &self,
+        token: T::Token,
         rows: Range<u32>,
         seen: Option<&[L::Seen<f32>]>,
-        spans: &mut [gsdf_nostd::Span<F32x8>],
+        spans: &mut [Span<T>],
         band: &mut B,
     ) -> Tally {
         let mut tally = Tally::default();
         let width = self.raster.width();
+        let places = T::load(token, &CENTERS);
         for y in rows.clone() {
-            for x in (0..width).step_by(8) {
-                let packet = Packet::through(&self.raster, centers(x), F32x8::splat(y as f32 + 0.5));
+            let mut x = 0;
+            while x < width {
+                let packet = Packet::through(&self.raster, places + T::splat(token, x as f32), T::splat(token, y as f32 + 0.5));
                 let hits = match seen {
                     Some(seen) => packet.cast_in(&self.program, SeenFrom(seen), spans),
-                    None => packet.cast_in(&self.program, gsdf_nostd::Anywhere, spans),
+                    None => packet.cast_in(&self.program, Anywhere, spans),
                 };
-                let count = (width - x).min(8);
+                let count = (width - x).min(T::LANES as u32);
                 band.put(x, y - rows.start, count as usize, &hits);
                 tally = tally.joined(Tally {
-                    hits: u64::from((u32::from(hits.hit.to_bits()) & ((1 << count) - 1)).count_ones()),
+                    hits: u64::from((hits.hit.to_bits() & ((1 << count) - 1)).count_ones()),
                     packets: 1,
                     sweeps: u64::from(hits.sweeps),
                     most_sweeps: hits.sweeps,
                 });
+                x += count;
             }
         }
         tally
     }
 }
 
-/// The abscissas of the centres of eight pixels from `x` on.
-#[inline(always)]
-fn centers(x: u32) -> F32x8 {
-    F32x8::new([0.5, 1.5, 2.5, 3.5, 4.5, 5.5, 6.5, 7.5]) + F32x8::splat(x as f32)
+/// The abscissas of the centres of the first pixels of a row.
+const CENTERS: [f32; MOST_LANES] = [0.5, 1.5, 2.5, 3.5, 4.5, 5.5, 6.5, 7.5, 8.5, 9.5, 10.5, 11.5, 12.5, 13.5, 14.5, 15.5];
+
+/// An image on its way to a canvas.
+struct Rendering<'i, 'a, L, C: ?Sized> {
+    image: &'i Image<'a, L>,
+    canvas: &'i mut C,
+}
+
+impl<L: Solid + Sync, C: Canvas + ?Sized> Work for Rendering<'_, '_, L, C>
+where
+    L::Seen<f32>: Send + Sync,
+{
+    type Output = Tally;
+
+    fn run<T: Lanes>(self, token: T::Token) -> Tally {
+        let Self { image, canvas } = self;
+        let (width, height) = (image.raster.width(), image.raster.height());
+        let seen = image.seen();
+        let bands = canvas.bands(width, BAND_ROWS);
+        bands
+            .into_par_iter()
+            .zip((0..height).into_par_iter().step_by(BAND_ROWS as usize))
+            .map_init(
+                || vec![Span::empty_like(T::splat(token, 0.0)); image.program.leaves()],
+                |spans, (mut band, top)| {
+                    let rows = top..(top + BAND_ROWS).min(height);
+                    T::vectorize(
+                        token,
+                        #[inline(always)]
+                        || image.render_rows(token, rows, seen.as_deref(), spans, &mut band),
+                    )
+                },
+            )
+            .reduce(Tally::default, Tally::joined)
+    }
 }
 
 impl Canvas for [Pixel] {
@@ -176,19 +221,23 @@ pub struct PixelBand<'b> {
 }
 
 impl Band for PixelBand<'_> {
-    fn put(&mut self, x: u32, y: u32, count: usize, hits: &Hits) {
+    #[inline(always)]
+    fn put<T: Lanes>(&mut self, x: u32, y: u32, count: usize, hits: &Hits<T>) {
         let start = y as usize * self.width + x as usize;
-        let distance = hits.t.to_array();
         let normal = hits.met.surface.normal;
-        let (nx, ny, nz) = (normal.x.to_array(), normal.y.to_array(), normal.z.to_array());
-        let leaf = hits.met.leaf.to_array();
+        let [distance, nx, ny, nz, leaf] = [hits.t, normal.x, normal.y, normal.z, hits.met.leaf].map(T::to_array);
+        let lanes = (distance.as_ref().iter())
+            .zip(nx.as_ref())
+            .zip(ny.as_ref())
+            .zip(nz.as_ref())
+            .zip(leaf.as_ref());
         let bits = hits.hit.to_bits();
-        for (lane, pixel) in self.pixels.iter_mut().skip(start).take(count).enumerate() {
+        for ((lane, pixel), ((((distance, nx), ny), nz), leaf)) in (self.pixels.iter_mut().skip(start).take(count).enumerate()).zip(lanes) {
             *pixel = if bits >> lane & 1 == 1 {
                 Pixel {
-                    distance: distance[lane],
-                    normal: [nx[lane], ny[lane], nz[lane]],
-                    leaf: leaf[lane] as u32,
+                    distance: *distance,
+                    normal: [*nx, *ny, *nz],
+                    leaf: *leaf as u32,
                 }
             } else {
                 Pixel::NOTHING
@@ -240,34 +289,30 @@ impl Canvas for Planes<'_> {
 }
 
 impl Band for Planes<'_> {
-    fn put(&mut self, x: u32, y: u32, count: usize, hits: &Hits) {
+    #[inline(always)]
+    fn put<T: Lanes>(&mut self, x: u32, y: u32, count: usize, hits: &Hits<T>) {
         let start = y as usize * self.stride + x as usize;
-        let zero = F32x8::splat(0.0);
-        store(self.distance, start, count, &hits.t.to_array());
+        let zero = hits.t.splat_like(0.0);
+        hits.t.store(part(self.distance, start, count));
         if let Some([x, y, z]) = &mut self.normal {
             let shown = V3::select(hits.hit, hits.met.surface.normal, V3::new(zero, zero, zero));
-            store(x, start, count, &shown.x.to_array());
-            store(y, start, count, &shown.y.to_array());
-            store(z, start, count, &shown.z.to_array());
+            shown.x.store(part(x, start, count));
+            shown.y.store(part(y, start, count));
+            shown.z.store(part(z, start, count));
         }
         if let Some(leaf) = &mut self.leaf {
             let bits = hits.hit.to_bits();
-            let lanes = hits.met.leaf.to_array();
-            let numbers = core::array::from_fn(|lane| {
-                if bits >> lane & 1 == 1 {
-                    lanes[lane] as u32
-                } else {
-                    Pixel::NO_LEAF
-                }
-            });
-            store(leaf, start, count, &numbers);
+            let numbers = hits.met.leaf.to_array();
+            for ((lane, place), number) in part(leaf, start, count).iter_mut().enumerate().zip(numbers.as_ref()) {
+                *place = if bits >> lane & 1 == 1 { *number as u32 } else { Pixel::NO_LEAF };
+            }
         }
     }
 }
 
-/// Stores the first lanes, as far as the plane reaches.
-fn store<N: Copy>(plane: &mut [N], start: usize, count: usize, lanes: &[N; 8]) {
-    for (place, lane) in plane.iter_mut().skip(start).take(count).zip(lanes) {
-        *place = *lane;
-    }
+/// The places of some lanes, as far as the plane reaches.
+#[inline(always)]
+fn part<N>(plane: &mut [N], start: usize, count: usize) -> &mut [N] {
+    let end = plane.len().min(start + count);
+    plane.get_mut(start..end).unwrap_or_default()
 }

@@ -25,6 +25,7 @@
 #[cfg(feature = "std")]
 mod image;
 mod lanes;
+mod level;
 mod packet;
 #[cfg(feature = "std")]
 mod renderer;
@@ -37,7 +38,10 @@ mod tile;
 
 #[cfg(feature = "std")]
 pub use image::{Band, Canvas, Image, Pixel, Planes, Tally};
-pub use lanes::{F32x8, LaneMask, Lanes, MOST_LANES, Mask8, Work};
+#[cfg(all(feature = "std", target_arch = "x86_64"))]
+pub use lanes::{Avx2Mask, Avx2x8, Avx512Mask, Avx512x16};
+pub use lanes::{F32x8, LaneMask, Lanes, MOST_LANES, Mask8};
+pub use level::{Level, LevelError, Work};
 #[cfg(feature = "std")]
 pub use packet::scratch;
 #[cfg(feature = "std")]

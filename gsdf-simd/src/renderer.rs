@@ -1,22 +1,25 @@
 //! Pictures of a prepared scene, on all cores.
 
-use crate::lanes::{F32x8, Lanes};
+use crate::lanes::Lanes;
+use crate::level::{Level, Work};
 use crate::scene::{Scene, View};
 use crate::target::Target;
-use crate::tile::{TILE_SIDE, Workspace, cast};
+use crate::tile::{TILE_SIDE, Tile, Workspace, cast};
+use core::marker::PhantomData;
 use core::ops::Range;
 use gsdf_nostd::{Raster, Solid};
 
 /// Renders pictures of a scene, tile by tile: what a tile's rays cannot meet is never looked at.
 ///
 /// Every pixel has the bits that a ray by itself finds with [`Program::along`](gsdf_nostd::Program::along), whatever was
-/// left out.
+/// left out, at every level and on any number of threads.
 ///
 /// It keeps the memory it works in: pictures after the first allocate nothing, as long as they are no larger.
 pub struct Renderer<'s, 'a, L: Solid> {
     view: View<'s, 'a, L>,
+    level: Level,
     /// One for each row of tiles.
-    work: Vec<Workspace<F32x8, L>>,
+    rows: Vec<Box<dyn Row<L> + 's>>,
 }
 
 /// What a picture took.
@@ -24,7 +27,7 @@ pub struct Renderer<'s, 'a, L: Solid> {
 pub struct Effort {
     /// The pixels that show something.
     pub hits: u64,
-    /// The spans of leaves that were computed, each for a packet of rays.
+    /// The spans of leaves that were computed, each along the rays of a packet.
     pub spans: u64,
 }
 
@@ -41,17 +44,30 @@ impl Effort {
 
 impl<'s, 'a, L> Renderer<'s, 'a, L>
 where
-    L: Solid<Seen<f32>: Send + Sync> + Send + Sync,
+    L: Solid<Seen<f32>: Send + Sync> + Send + Sync + 's,
 {
-    /// A renderer of pictures of this scene, as this raster sees it.
+    /// A renderer of pictures of this scene, as this raster sees it, at the [best level](Level::best) of this machine.
     #[must_use]
     pub fn new(scene: &'s Scene<'a, L>, raster: Raster) -> Self {
+        Self::at_level(scene, raster, Level::best())
+    }
+
+    /// The same at another level; the pixels are the same.
+    #[must_use]
+    pub fn at_level(scene: &'s Scene<'a, L>, raster: Raster, level: Level) -> Self {
         let mut renderer = Self {
             view: View::new(scene, raster),
-            work: Vec::new(),
+            level,
+            rows: Vec::new(),
         };
         renderer.make_room();
         renderer
+    }
+
+    /// The level at which it renders.
+    #[must_use]
+    pub fn level(&self) -> Level {
+        self.level
     }
 
     /// Looks through another raster from now on.
@@ -61,58 +77,98 @@ where
     }
 
     fn make_room(&mut self) {
-        let rows = self.rows().len();
-        while self.work.len() < rows {
-            self.work.push(Workspace::new(()));
+        while self.rows.len() < self.height() {
+            self.rows.push(self.level.run(MakeRow(PhantomData)));
         }
     }
 
-    /// The rows of tiles.
-    fn rows(&self) -> Range<usize> {
-        0..(self.view.raster.height() as usize).div_ceil(TILE_SIDE)
+    /// How many rows of tiles there are.
+    fn height(&self) -> usize {
+        (self.view.raster.height() as usize).div_ceil(TILE_SIDE)
     }
 
     /// Casts a ray through the centre of every pixel, on the threads of the current `rayon` pool. The pixels do not
     /// depend on their number.
     pub fn render<T: Target>(&mut self, target: T) -> Effort {
-        let rows = self.rows();
-        render_rows(&self.view, target, rows, &mut self.work)
+        let height = self.height();
+        match self.rows.get_mut(..height) {
+            Some(rows) => render_rows(&self.view, target, 0..height, rows),
+            None => Effort::default(),
+        }
     }
 }
 
-/// Renders rows of tiles: one after the other on as many threads as there are.
-fn render_rows<T: Target, L>(view: &View<'_, '_, L>, target: T, rows: Range<usize>, work: &mut [Workspace<F32x8, L>]) -> Effort
+/// Renders rows of tiles, on as many threads as there are; `work` has one workspace for each.
+fn render_rows<'s, C: Target, L>(view: &View<'_, '_, L>, mut target: C, rows: Range<usize>, work: &mut [Box<dyn Row<L> + 's>]) -> Effort
 where
     L: Solid<Seen<f32>: Send + Sync> + Send + Sync,
 {
-    if let ([only], 1) = (&mut *work, rows.len()) {
-        return render_row((), view, target, rows.start, only);
+    match work {
+        [] => Effort::default(),
+        [only] => {
+            let normals = target.wants_normals();
+            only.render(view, rows.start, normals, &mut |x, tile| target.put(x, 0, tile))
+        }
+        _ => {
+            let half = work.len() / 2;
+            let middle = rows.start + half;
+            let (above, below) = target.split_at((half * TILE_SIDE) as u32);
+            let (work_above, work_below) = work.split_at_mut(half);
+            let (above, below) = rayon::join(
+                || render_rows(view, above, rows.start..middle, work_above),
+                || render_rows(view, below, middle..rows.end, work_below),
+            );
+            above.joined(below)
+        }
     }
-    if rows.is_empty() {
-        return Effort::default();
-    }
-    let half = rows.len() / 2;
-    let middle = rows.start + half;
-    let (above, below) = target.split_at((half * TILE_SIDE) as u32);
-    let (work_above, work_below) = work.split_at_mut(half);
-    let (above, below) = rayon::join(
-        || render_rows(view, above, rows.start..middle, work_above),
-        || render_rows(view, below, middle..rows.end, work_below),
-    );
-    above.joined(below)
 }
 
-/// Renders one row of tiles.
+/// What renders a row of tiles, in lanes of some type.
+trait Row<L: Solid>: Send {
+    /// Renders a row, and puts each tile where its first column tells.
+    fn render(&mut self, view: &View<'_, '_, L>, row: usize, normals: bool, put: &mut dyn FnMut(u32, &Tile)) -> Effort;
+}
+
+/// Makes a [`Row`] for the lanes of a level.
+struct MakeRow<'s, L>(PhantomData<(&'s (), L)>);
+
+impl<'s, L: Solid + Send + Sync + 's> Work for MakeRow<'s, L> {
+    type Output = Box<dyn Row<L> + 's>;
+
+    fn run<T: Lanes>(self, token: T::Token) -> Self::Output {
+        Box::new(RowOf {
+            token,
+            work: Workspace::<T, L>::new(token),
+        })
+    }
+}
+
+struct RowOf<T: Lanes, L> {
+    token: T::Token,
+    work: Workspace<T, L>,
+}
+
+impl<T: Lanes, L: Solid + Send + Sync> Row<L> for RowOf<T, L> {
+    fn render(&mut self, view: &View<'_, '_, L>, row: usize, normals: bool, put: &mut dyn FnMut(u32, &Tile)) -> Effort {
+        let (token, work) = (self.token, &mut self.work);
+        T::vectorize(
+            token,
+            #[inline(always)]
+            || render_row(token, view, row, normals, work, put),
+        )
+    }
+}
+
 #[inline(always)]
-fn render_row<T: Lanes, C: Target, L: Solid>(
+fn render_row<T: Lanes, L: Solid>(
     token: T::Token,
     view: &View<'_, '_, L>,
-    mut target: C,
     row: usize,
+    normals: bool,
     work: &mut Workspace<T, L>,
+    put: &mut dyn FnMut(u32, &Tile),
 ) -> Effort {
     let (width, height) = (view.raster.width(), view.raster.height());
-    let normals = target.wants_normals();
     let y = (row * TILE_SIDE) as u32;
     let mut effort = Effort::default();
     work.computed = 0;
@@ -120,7 +176,7 @@ fn render_row<T: Lanes, C: Target, L: Solid>(
     while x < width {
         cast(token, view, x, y, normals, work);
         effort.hits += u64::from(work.tile.hits(width - x, height - y));
-        target.put(x, 0, &work.tile);
+        put(x, &work.tile);
         x += TILE_SIDE as u32;
     }
     effort.spans = work.computed;

@@ -6,4 +6,5 @@ mod boards;
 mod conformance;
 mod golden;
 mod images;
+mod lanes;
 mod packets;

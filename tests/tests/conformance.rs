@@ -15,6 +15,10 @@ arithmetic_conformance!(single: f32);
 arithmetic_conformance!(double: f64);
 arithmetic_conformance!(fpu: Fpu);
 arithmetic_conformance!(packet_of_eight: F32x8);
+#[cfg(target_arch = "x86_64")]
+arithmetic_conformance!(packet_of_eight_in_avx2: gsdf_simd::Avx2x8);
+#[cfg(target_arch = "x86_64")]
+arithmetic_conformance!(packet_of_sixteen_in_avx512: gsdf_simd::Avx512x16);
 
 /// A leaf of the library: its number among [`KINDS`], and how it is found in a [`Leaf`].
 macro_rules! library_leaf {

@@ -216,11 +216,15 @@ impl Canvas for Screen {
 }
 
 impl Band for ScreenBand<'_> {
-    fn put(&mut self, x: u32, y: u32, count: usize, hits: &Hits) {
+    fn put<T: Lanes>(&mut self, x: u32, y: u32, count: usize, hits: &Hits<T>) {
         let start = y as usize * Screen::STRIDE + Screen::MARGIN + x as usize;
         let (leaves, shown) = (hits.met.leaf.to_array(), hits.hit.to_bits());
         for (lane, byte) in self.0[start..start + count].iter_mut().enumerate() {
-            *byte = if shown >> lane & 1 == 1 { leaves[lane] as u8 + 1 } else { 0 };
+            *byte = if shown >> lane & 1 == 1 {
+                leaves.as_ref()[lane] as u8 + 1
+            } else {
+                0
+            };
         }
     }
 }

@@ -1,6 +1,6 @@
 //! What is known of the place where a line starts.
 
-use crate::leaf::{Ground, Solid, Surface};
+use crate::leaf::{Ground, Solid, Surface, span_unseen};
 use crate::range::max_norm;
 use crate::ray::Line;
 use crate::real::Real;
@@ -74,7 +74,7 @@ impl<L: Solid, T: Real> Footing<L, T> for SeenFrom<'_, L::Seen<T::Scalar>> {
     fn span(self, number: u32, solid: &L, line: &Line<T>, _: Option<&Transform>) -> Span<T> {
         match self.0.get(number as usize) {
             Some(seen) => solid.span_lifted(seen, &line.toward),
-            None => solid.span_along(line),
+            None => span_unseen(solid, line),
         }
     }
 

@@ -198,14 +198,11 @@ impl Solid for CappedCone {
     fn surface<T: Real>(&self, seen: &Self::Seen<T>, toward: &Toward<T>, t: T) -> Surface<T> {
         let profile = self.profile(t);
         let per_speed = reciprocal_speed(toward.v.dot(profile.axis));
-        let face = |number: f32, normal: V3<T>| Surface {
-            normal,
-            face: t.splat_like(number),
-        };
         let at_top = plane::crossing(seen.over_top, per_speed).eq(t);
         let at_bottom = plane::crossing(seen.over_bottom, per_speed).eq(t);
-        let side = face(0.0, seen.side.normal(&profile, toward, t));
-        face(1.0, -profile.axis).or_else(at_bottom, face(2.0, profile.axis).or_else(at_top, side))
+        let side = Surface::of_face(0.0, seen.side.normal(&profile, toward, t));
+        let top = Surface::of_face(2.0, profile.axis).or_else(at_top, side);
+        Surface::of_face(1.0, -profile.axis).or_else(at_bottom, top)
     }
 
     fn divides_by_components(&self) -> bool {

@@ -146,14 +146,11 @@ impl Solid for CappedCylinder {
     fn surface<T: Real>(&self, seen: &Self::Seen<T>, toward: &Toward<T>, t: T) -> Surface<T> {
         let axis = V3::splat(t, self.side.axis());
         let per_speed = reciprocal_speed(toward.v.dot(axis));
-        let cap = |number: f32, normal: V3<T>| Surface {
-            normal,
-            face: t.splat_like(number),
-        };
         let at_top = plane::crossing(seen.over_top, per_speed).eq(t);
         let at_bottom = plane::crossing(seen.over_bottom, per_speed).eq(t);
         let side = self.side.surface(&seen.side, toward, t);
-        cap(1.0, -axis).or_else(at_bottom, cap(2.0, axis).or_else(at_top, side))
+        let top = Surface::of_face(2.0, axis).or_else(at_top, side);
+        Surface::of_face(1.0, -axis).or_else(at_bottom, top)
     }
 
     fn divides_by_components(&self) -> bool {

@@ -124,14 +124,10 @@ impl Solid for Capsule {
         let [a, b] = self.ends();
         let extent = radius + radius.splat_like(max_norm(a).max(max_norm(b)));
         let axis = self.axis(radius);
-        let end = |number: f32| Ground {
-            face: ground.face - ground.face.splat_like(number),
-            ..*ground
-        };
         SeenCapsule {
             ends: [
-                self.ends[0].grounded(seen.ends[0], &end(1.0)),
-                self.ends[1].grounded(seen.ends[1], &end(2.0)),
+                self.ends[0].grounded(seen.ends[0], &ground.of_part(1.0)),
+                self.ends[1].grounded(seen.ends[1], &ground.of_part(2.0)),
             ],
             side: seen.side.grounded(ground, 0.0, radius * axis.norm_squared(), extent),
             over: seen.over,
@@ -151,18 +147,11 @@ impl Solid for Capsule {
     /// Face 0 is the side, 1 the round end around the first point, 2 that around the second.
     #[inline(always)]
     fn surface<T: Real>(&self, seen: &Self::Seen<T>, toward: &Toward<T>, t: T) -> Surface<T> {
-        let at_end = |end: usize| {
-            let span = self.ends[end].span(&seen.ends[end], toward);
-            span.enter.eq(t) | span.exit.eq(t)
-        };
-        let (at_first, at_second) = (at_end(0), at_end(1));
-        let face = |number: f32, normal: V3<T>| Surface {
-            normal,
-            face: t.splat_like(number),
-        };
-        let first = face(1.0, self.ends[0].surface(&seen.ends[0], toward, t).normal);
-        let second = face(2.0, self.ends[1].surface(&seen.ends[1], toward, t).normal);
-        let side = face(0.0, seen.side.normal(self.axis(t), toward, t));
+        let at_first = self.ends[0].span(&seen.ends[0], toward).ends_at(t);
+        let at_second = self.ends[1].span(&seen.ends[1], toward).ends_at(t);
+        let first = Surface::of_face(1.0, self.ends[0].surface(&seen.ends[0], toward, t).normal);
+        let second = Surface::of_face(2.0, self.ends[1].surface(&seen.ends[1], toward, t).normal);
+        let side = Surface::of_face(0.0, seen.side.normal(self.axis(t), toward, t));
         first.or_else(at_first, second.or_else(at_second, side))
     }
 

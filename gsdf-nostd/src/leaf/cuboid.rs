@@ -119,11 +119,18 @@ impl Solid for Cuboid {
     fn grounded<T: Real>(&self, seen: Self::Seen<T>, ground: &Ground<T>) -> Self::Seen<T> {
         let one = ground.face.splat_like(1.0);
         let extent = one.splat_like(max_norm(self.min).max(max_norm(self.max)));
-        let on = |face: f32, offset: T| ground.settle(face, offset, one, extent);
         let (low, high) = (seen.over_min, seen.over_max);
         SeenCuboid {
-            over_min: V3::new(on(0.0, low.x), on(2.0, low.y), on(4.0, low.z)),
-            over_max: V3::new(on(1.0, high.x), on(3.0, high.y), on(5.0, high.z)),
+            over_min: V3::new(
+                ground.settle(0.0, low.x, one, extent),
+                ground.settle(2.0, low.y, one, extent),
+                ground.settle(4.0, low.z, one, extent),
+            ),
+            over_max: V3::new(
+                ground.settle(1.0, high.x, one, extent),
+                ground.settle(3.0, high.y, one, extent),
+                ground.settle(5.0, high.z, one, extent),
+            ),
         }
     }
 
@@ -142,16 +149,12 @@ impl Solid for Cuboid {
     #[inline(always)]
     fn surface<T: Real>(&self, seen: &Self::Seen<T>, toward: &Toward<T>, t: T) -> Surface<T> {
         let (low, high, per) = (seen.over_min, seen.over_max, toward.per_component);
-        let face = |number: f32, normal: Vec3| Surface {
-            normal: V3::splat(t, normal),
-            face: t.splat_like(number),
-        };
-        let crossed_at = |height: T, per_speed: T| plane::crossing(height, per_speed).eq(t);
-        let z = face(4.0, Vec3::NEG_Z).or_else(crossed_at(low.z, per.z), face(5.0, Vec3::Z));
-        let y = face(3.0, Vec3::Y).or_else(crossed_at(high.y, per.y), z);
-        let y = face(2.0, Vec3::NEG_Y).or_else(crossed_at(low.y, per.y), y);
-        let x = face(1.0, Vec3::X).or_else(crossed_at(high.x, per.x), y);
-        face(0.0, Vec3::NEG_X).or_else(crossed_at(low.x, per.x), x)
+        let faces = Surface::of_face(5.0, V3::splat(t, Vec3::Z));
+        let faces = Surface::of_face(4.0, V3::splat(t, Vec3::NEG_Z)).or_else(plane::crossing(low.z, per.z).eq(t), faces);
+        let faces = Surface::of_face(3.0, V3::splat(t, Vec3::Y)).or_else(plane::crossing(high.y, per.y).eq(t), faces);
+        let faces = Surface::of_face(2.0, V3::splat(t, Vec3::NEG_Y)).or_else(plane::crossing(low.y, per.y).eq(t), faces);
+        let faces = Surface::of_face(1.0, V3::splat(t, Vec3::X)).or_else(plane::crossing(high.x, per.x).eq(t), faces);
+        Surface::of_face(0.0, V3::splat(t, Vec3::NEG_X)).or_else(plane::crossing(low.x, per.x).eq(t), faces)
     }
 
     fn bounds(&self) -> Option<Bounds> {

@@ -33,8 +33,12 @@ impl<T: Real, const N: usize> SeenFacet<T, N> {
 
     #[inline(always)]
     pub(super) fn lift(seen: &SeenFacet<T::Scalar, N>, like: T) -> Self {
+        let mut corners = [V3::new(like, like, like); N];
+        for (lifted, corner) in corners.iter_mut().zip(&seen.corners) {
+            *lifted = V3::lift(like, *corner);
+        }
         Self {
-            corners: seen.corners.map(|corner| V3::lift(like, corner)),
+            corners,
             ahead: like.lift_like(seen.ahead),
         }
     }
@@ -43,7 +47,10 @@ impl<T: Real, const N: usize> SeenFacet<T, N> {
     #[inline(always)]
     pub(super) fn grounded(self, corners: &[Vec3; N], normal: V3<T>, ground: &Ground<T>) -> Self {
         let one = ground.face.splat_like(1.0);
-        let extent = corners.iter().fold(0.0, |extent, corner| larger(extent, max_norm(*corner)));
+        let mut extent = 0.0;
+        for corner in corners {
+            extent = larger(extent, max_norm(*corner));
+        }
         let height = ground.settle(0.0, self.corners[0].dot(normal), one, one.splat_like(extent));
         Self {
             ahead: T::select(height.eq(one.splat_like(0.0)), height, self.ahead),
@@ -138,8 +145,14 @@ impl<T: Real> Sight<T> {
     /// The components of a vector, the one along the ray's largest last.
     #[inline(always)]
     fn turned(&self, v: V3<T>) -> [T; 3] {
-        let pick = |x, y, z| T::select(self.mostly_x, x, T::select(self.mostly_y, y, z));
-        [pick(v.y, v.z, v.x), pick(v.z, v.x, v.y), pick(v.x, v.y, v.z)]
+        [self.pick(v.y, v.z, v.x), self.pick(v.z, v.x, v.y), self.pick(v.x, v.y, v.z)]
+    }
+
+    /// The first number where the ray's largest component is that along x, the second where it is that along y, or the
+    /// third.
+    #[inline(always)]
+    fn pick(&self, x: T, y: T, z: T) -> T {
+        T::select(self.mostly_x, x, T::select(self.mostly_y, y, z))
     }
 
     #[inline(always)]

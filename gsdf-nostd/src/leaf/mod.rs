@@ -42,6 +42,7 @@ pub use rhombus::Rhombus;
 pub use rounded_cone::RoundedCone;
 pub(crate) use sector::{sector_bounds, sector_distance};
 pub use set::Leaf;
+pub(crate) use solid::span_unseen;
 pub use solid::{Bounds, Ground, Solid, Surface};
 pub use solid_angle::SolidAngle;
 pub use sphere::Sphere;

@@ -75,7 +75,8 @@ impl Quad {
     /// The unit vector about which the corners turn to the left.
     #[inline(always)]
     fn normal<T: Real>(&self, like: T, otherwise: V3<T>) -> V3<T> {
-        let [a, b, c, d] = self.corners.map(|corner| V3::splat(like, corner));
+        let [a, b, c, d] = self.corners;
+        let (a, b, c, d) = (V3::splat(like, a), V3::splat(like, b), V3::splat(like, c), V3::splat(like, d));
         across(c - a, d - b, otherwise)
     }
 }

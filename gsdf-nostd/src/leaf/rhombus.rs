@@ -331,18 +331,14 @@ impl Solid for Rhombus {
             );
             // From the last to the first, which stays.
             let around = [(9.0_f32, fourth, d), (8.0, third, c), (7.0, second, b), (6.0, first, a)];
-            let face = |number: f32, edge: &SeenSide<T>| Surface {
-                normal: edge.normal(axis, toward, t),
-                face: t.splat_like(number),
-            };
             // Where a side goes over into an edge, rounding may leave it to the chord to bound the ray: the edge
             // beyond it is what is there.
             for (number, edge, chord) in &around {
-                last = face(*number, edge).or_else(chord.eq(t), last);
+                last = Surface::of_face(*number, edge.normal(axis, toward, t)).or_else(chord.eq(t), last);
             }
             for (number, edge, _) in &around {
-                let span = edge.span(axis, toward);
-                last = face(*number, edge).or_else(span.enter.eq(t) | span.exit.eq(t), last);
+                let ends = edge.span(axis, toward).ends_at(t);
+                last = Surface::of_face(*number, edge.normal(axis, toward, t)).or_else(ends, last);
             }
         }
         let crossed = Crossed::at(t, last)

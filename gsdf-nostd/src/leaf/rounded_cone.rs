@@ -119,6 +119,13 @@ impl RoundedCone {
 /// stays positive in every arithmetic: 2^-20.
 const LEAST_SLOPE_SQUARED: f64 = 1.0 / 1_048_576.0;
 
+/// How far an origin is over the plane in which the side touches the sphere around an end, along the profile's axis.
+#[inline(always)]
+fn over<T: Real>(end: &Sphere, profile: &Profile<T>, origin: V3<T>) -> T {
+    let w = origin - V3::splat(origin.x, end.center());
+    w.dot(profile.axis) + origin.x.splat_like(end.radius()) * profile.s
+}
+
 impl Solid for RoundedCone {
     type Seen<T: Real> = SeenRoundedCone<T>;
 
@@ -142,14 +149,10 @@ impl Solid for RoundedCone {
     fn seen_from<T: Real>(&self, origin: V3<T>) -> Self::Seen<T> {
         let like = origin.x;
         let profile = self.profile(like);
-        let over = |end: &Sphere| {
-            let w = origin - V3::splat(like, end.center());
-            w.dot(profile.axis) + like.splat_like(end.radius()) * profile.s
-        };
         SeenRoundedCone {
             ends: [self.ends[0].seen_from(origin), self.ends[1].seen_from(origin)],
             side: SeenCone::new(origin - V3::splat(like, self.ends[0].center()), &profile),
-            over: [over(&self.ends[0]), over(&self.ends[1])],
+            over: [over(&self.ends[0], &profile, origin), over(&self.ends[1], &profile, origin)],
         }
     }
 
@@ -176,14 +179,10 @@ impl Solid for RoundedCone {
             tolerance: ground.tolerance * unit,
             ..*ground
         };
-        let end = |number: f32| Ground {
-            face: ground.face - like.splat_like(number),
-            ..*ground
-        };
         SeenRoundedCone {
             ends: [
-                self.ends[0].grounded(seen.ends[0], &end(1.0)),
-                self.ends[1].grounded(seen.ends[1], &end(2.0)),
+                self.ends[0].grounded(seen.ends[0], &ground.of_part(1.0)),
+                self.ends[1].grounded(seen.ends[1], &ground.of_part(2.0)),
             ],
             side: seen.side.grounded(&profile, &by_side, 0.0, extent * unit),
             over: seen.over,
@@ -205,24 +204,17 @@ impl Solid for RoundedCone {
     /// Face 0 is the side, 1 the sphere around the first centre, 2 that around the second.
     #[inline(always)]
     fn surface<T: Real>(&self, seen: &Self::Seen<T>, toward: &Toward<T>, t: T) -> Surface<T> {
-        let at_end = |end: usize| {
-            let span = self.ends[end].span(&seen.ends[end], toward);
-            span.enter.eq(t) | span.exit.eq(t)
-        };
-        let (at_first, at_second) = (at_end(0), at_end(1));
-        let face = |number: f32, normal: V3<T>| Surface {
-            normal,
-            face: t.splat_like(number),
-        };
-        let first = face(1.0, self.ends[0].surface(&seen.ends[0], toward, t).normal);
-        let second = face(2.0, self.ends[1].surface(&seen.ends[1], toward, t).normal);
+        let at_first = self.ends[0].span(&seen.ends[0], toward).ends_at(t);
+        let at_second = self.ends[1].span(&seen.ends[1], toward).ends_at(t);
+        let first = Surface::of_face(1.0, self.ends[0].surface(&seen.ends[0], toward, t).normal);
+        let second = Surface::of_face(2.0, self.ends[1].surface(&seen.ends[1], toward, t).normal);
         let profile = self.profile(t);
         // The slope in units of the axis, which is not of unit length.
         let by_axis = Profile {
             k: profile.k * profile.axis.norm(),
             ..profile
         };
-        let side = face(0.0, seen.side.normal(&by_axis, toward, t));
+        let side = Surface::of_face(0.0, seen.side.normal(&by_axis, toward, t));
         first.or_else(at_first, second.or_else(at_second, side))
     }
 

@@ -57,9 +57,13 @@ pub trait Solid: Copy {
     }
 
     /// [`seen_from`](Solid::seen_from) and [`span`](Solid::span) in one.
-    #[inline]
+    #[inline(always)]
     fn span_along<T: Real>(&self, line: &Line<T>) -> Span<T> {
-        self.span(&self.seen_from(line.origin), &line.toward)
+        if T::LANES == 1 {
+            span_apart(self, line)
+        } else {
+            self.span(&self.seen_from(line.origin), &line.toward)
+        }
     }
 
     /// [`lift`](Solid::lift) and [`span`](Solid::span) in one: what a choice of solids does without a view that has room
@@ -137,6 +141,23 @@ pub trait Solid: Copy {
     }
 }
 
+/// [`Solid::span_along`] as a function of its own: one copy for all that ask with single rays, so that flash stays
+/// small. Lanes are left together where they are, since their instructions may be those of the caller alone.
+#[inline]
+fn span_apart<T: Real, L: Solid>(solid: &L, line: &Line<T>) -> Span<T> {
+    solid.span(&solid.seen_from(line.origin), &line.toward)
+}
+
+/// [`Solid::span_along`] where it is not expected to be asked for: by lanes too as a function of its own.
+#[inline(always)]
+pub(crate) fn span_unseen<T: Real, L: Solid>(solid: &L, line: &Line<T>) -> Span<T> {
+    if T::LANES == 1 {
+        solid.span_along(line)
+    } else {
+        span_apart(solid, line)
+    }
+}
+
 /// A point of a surface, as a ray that crosses it there sees it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Surface<T> {
@@ -147,6 +168,15 @@ pub struct Surface<T> {
 }
 
 impl<T: Real> Surface<T> {
+    /// The surface of a face of this number.
+    #[inline(always)]
+    pub(crate) fn of_face(number: f32, normal: V3<T>) -> Self {
+        Self {
+            normal,
+            face: normal.x.splat_like(number),
+        }
+    }
+
     /// `self` where the mask is true, `other` elsewhere.
     #[inline(always)]
     #[must_use]
@@ -178,6 +208,15 @@ impl<T: Real> Ground<T> {
         let within = self.tolerance + size * offset.splat_like(Self::ROUNDING);
         let on = offset.abs().le(scale * within) | self.face.eq(self.face.splat_like(face));
         T::select(on, zero, offset)
+    }
+
+    /// The same ground for a part of the solid whose own faces are counted from `first` on.
+    #[inline(always)]
+    pub(crate) fn of_part(&self, first: f32) -> Self {
+        Self {
+            face: self.face - self.face.splat_like(first),
+            ..*self
+        }
     }
 
     /// How many times the extent a computed offset can be off by rounding: 32 units roundoff of `f32`.

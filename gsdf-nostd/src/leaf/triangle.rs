@@ -54,7 +54,8 @@ impl Triangle {
     /// The unit vector about which the corners turn to the left.
     #[inline(always)]
     fn normal<T: Real>(&self, like: T, otherwise: V3<T>) -> V3<T> {
-        let [a, b, c] = self.corners.map(|corner| V3::splat(like, corner));
+        let [a, b, c] = self.corners;
+        let (a, b, c) = (V3::splat(like, a), V3::splat(like, b), V3::splat(like, c));
         across(b - a, c - a, otherwise)
     }
 }

@@ -1,7 +1,11 @@
 //! Lane types: how several numbers are one.
 
+#[cfg(all(feature = "std", target_arch = "x86_64"))]
+mod dispatched;
 mod wide;
 
+#[cfg(all(feature = "std", target_arch = "x86_64"))]
+pub use dispatched::{Avx2Mask, Avx2x8, Avx512Mask, Avx512x16};
 pub use wide::{F32x8, Mask8};
 
 use gsdf_nostd::{Mask, Real};
@@ -13,10 +17,15 @@ pub const MOST_LANES: usize = 16;
 ///
 /// Some types can only be made where the processor is known to have their instructions. Their values carry a token
 /// that proves it, and new ones are made from that; [`F32x8`] needs none.
-pub trait Lanes: Real<Scalar = f32, Mask: LaneMask> {
+pub trait Lanes: Real<Scalar = f32, Mask: LaneMask> + Send + Sync + 'static {
     /// What values are made from.
     type Token: Copy + Send + Sync;
+    /// The lanes one by one.
+    type Array: AsRef<[f32]>;
 
+    /// What values are made from, if this machine has the instructions they need. The processor is asked once.
+    #[must_use]
+    fn detect() -> Option<Self::Token>;
     /// The same number in every lane.
     #[must_use]
     fn splat(token: Self::Token, value: f32) -> Self;
@@ -26,6 +35,9 @@ pub trait Lanes: Real<Scalar = f32, Mask: LaneMask> {
     /// What other values can be made from.
     #[must_use]
     fn token(self) -> Self::Token;
+    /// The lanes, first to last.
+    #[must_use]
+    fn to_array(self) -> Self::Array;
     /// Puts the lanes into a slice, first to last, as far as it reaches.
     fn store(self, place: &mut [f32]);
     /// The power of two at or below each lane, for positive normal numbers: their exponent bits alone.
@@ -38,27 +50,18 @@ pub trait Lanes: Real<Scalar = f32, Mask: LaneMask> {
     #[must_use]
     fn greatest(self) -> f32;
 
-    /// Does work in a function of its own, which is compiled for the same instructions as its caller.
-    fn outline<W: Work<Self>>(token: Self::Token, work: W) -> W::Output;
+    /// Does work that is compiled for the instructions which the token proves.
+    ///
+    /// That holds for what is inlined into it: a closure under `#[inline(always)]` and generic functions under it
+    /// too. What they call instead is compiled as the rest of the program is.
+    fn vectorize<R>(token: Self::Token, work: impl FnOnce() -> R) -> R;
 
     /// One lane, if there is one of that number.
     #[inline(always)]
     #[must_use]
     fn lane(self, lane: usize) -> Option<f32> {
-        let mut lanes = [0.0; MOST_LANES];
-        self.store(&mut lanes);
-        lanes.get(..Self::LANES)?.get(lane).copied()
+        self.to_array().as_ref().get(lane).copied()
     }
-}
-
-/// Work that is compiled once for each lane type, as a function of its own, instead of wherever it is wanted: see
-/// [`Lanes::outline`].
-pub trait Work<T: Lanes> {
-    /// What comes of it.
-    type Output;
-
-    /// Does it. To be inlined always, as everything it calls.
-    fn work(self, token: T::Token) -> Self::Output;
 }
 
 /// The truth values of [`Lanes`].

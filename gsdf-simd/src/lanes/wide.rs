@@ -1,6 +1,6 @@
 //! Eight `f32` in whatever vectors the target has: the portable packet.
 
-use super::{LaneMask, Lanes, Work, padded, put};
+use super::{LaneMask, Lanes, padded, put};
 use core::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 use gsdf_nostd::{Mask, Real};
 use wide::f32x8;
@@ -205,7 +205,11 @@ impl Real for F32x8 {
 
 impl Lanes for F32x8 {
     type Token = ();
+    type Array = [f32; 8];
 
+    fn detect() -> Option<()> {
+        Some(())
+    }
     #[inline(always)]
     fn splat((): (), value: f32) -> Self {
         Self(f32x8::splat(value))
@@ -217,16 +221,16 @@ impl Lanes for F32x8 {
     #[inline(always)]
     fn token(self) {}
     #[inline(always)]
+    fn to_array(self) -> [f32; 8] {
+        Self::to_array(self)
+    }
+    #[inline(always)]
     fn store(self, place: &mut [f32]) {
         put(self.to_array(), place);
     }
     #[inline(always)]
     fn power_of_two_below(self) -> Self {
         Self(self.0 & f32x8::splat(f32::INFINITY))
-    }
-    #[inline(never)]
-    fn outline<W: Work<Self>>(token: (), work: W) -> W::Output {
-        work.work(token)
     }
     #[inline(always)]
     fn least(self) -> f32 {
@@ -237,6 +241,11 @@ impl Lanes for F32x8 {
     fn greatest(self) -> f32 {
         let [a, b, c, d, e, f, g, h] = self.to_array();
         a.max(b).max(c.max(d)).max(e.max(f).max(g.max(h)))
+    }
+    // A function of its own here too: what is asked for in many places, such as the formulas of all solids, stands once.
+    #[inline(never)]
+    fn vectorize<R>((): (), work: impl FnOnce() -> R) -> R {
+        work()
     }
 }
 

@@ -88,6 +88,14 @@ pub fn signs_are_bits<T: Lanes>() {
     );
 }
 
+/// The next number is the least greater one; infinity and NaN have none.
+///
+/// # Panics
+/// Where the type fails this duty.
+pub fn the_next_number_is_the_least_greater_one<T: Lanes>() {
+    check_binary::<T>(&[("next", |a, _| a.next_up())], &[("", |a, _| a.std_next_up())]);
+}
+
 /// A comparison, by its name.
 type Comparison<N, M> = (&'static str, fn(N, N) -> M);
 
@@ -128,14 +136,15 @@ pub fn minima_and_maxima_return_the_second_operand_on_ties_and_nan<T: Lanes>() {
     );
 }
 
-/// Selection takes each lane from one operand or the other, NaNs and zeros unharmed, for every mask there is.
+/// Selection takes each lane from one operand or the other, NaNs and zeros unharmed, for every mask of up to eight lanes
+/// and thousands of wider ones.
 ///
 /// # Panics
 /// Where the type fails this duty.
 pub fn selection_goes_lane_by_lane<T: Lanes>() {
     let mut bits = 0_u32;
     for_packets::<T>(|a, b, pair| {
-        bits = (bits + 1) % (1 << T::LANES);
+        bits = (bits + 257) % (1 << T::LANES);
         let found = T::select(mask_of::<T>(|lane| bits >> lane & 1 == 1), a, b);
         for lane in 0..T::LANES {
             let (yes, no) = pair(lane);
@@ -174,20 +183,23 @@ pub fn constants_fill_every_lane<T: Lanes>() {
     }
 }
 
-/// And, or, not, difference, any, all and constants, for every pair of masks there is.
+/// And, or, not, difference, any, all and constants, for every pair of masks of up to eight lanes, and a million pairs of
+/// wider ones.
 ///
 /// # Panics
 /// Where the type fails this duty.
 pub fn masks_are_truth_values_lane_by_lane<T: Lanes>() {
     let every = (1_u32 << T::LANES) - 1;
     let mask = |bits: u32| mask_of::<T>(|lane| bits >> lane & 1 == 1);
-    for first in 0..=every {
+    // Every mask with every other, up to eight lanes; of more lanes every seventeenth with 256 others.
+    for first in (0..=every).step_by(if T::LANES > 8 { 17 } else { 1 }) {
         let a = mask(first);
         assert_eq!(bits_of::<T>(a), first);
         assert_eq!(bits_of::<T>(!a), first ^ every, "not {first:b}");
         assert_eq!(bits_of::<T>(a.splat_like(true)), every);
         assert_eq!(bits_of::<T>(a.splat_like(false)), 0);
-        for second in 0..=every {
+        for step in 0..=every.min(255) {
+            let second = (first + 257 * step) & every;
             let b = mask(second);
             assert_eq!(bits_of::<T>(a & b), first & second, "{first:b} and {second:b}");
             assert_eq!(bits_of::<T>(a | b), first | second, "{first:b} or {second:b}");

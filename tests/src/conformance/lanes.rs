@@ -3,10 +3,15 @@
 use super::values::Plain;
 use gsdf_nostd::{Mask, Real};
 use gsdf_parts::Fpu;
-use gsdf_simd::{F32x8, Mask8};
+use gsdf_simd::{F32x8, LaneMask, Lanes as SimdLanes};
 
 /// An arithmetic whose lanes can be set and read one by one. One impl of a few lines makes a lane type testable.
 pub trait Lanes: Real<Scalar: Plain> {
+    /// Whether this machine has the instructions that the type is made of.
+    #[must_use]
+    fn is_here() -> bool {
+        true
+    }
     /// The value with these lanes.
     fn from_lanes(lane: impl FnMut(usize) -> Self::Scalar) -> Self;
     /// One lane.
@@ -35,17 +40,31 @@ one_lane!(f32);
 one_lane!(f64);
 one_lane!(Fpu);
 
-impl Lanes for F32x8 {
-    fn from_lanes(lane: impl FnMut(usize) -> f32) -> Self {
-        Self::new(core::array::from_fn(lane))
-    }
-    fn lane(self, lane: usize) -> f32 {
-        self.to_array()[lane]
-    }
-    fn truth(mask: Mask8, lane: usize) -> bool {
-        mask.to_bits() >> lane & 1 == 1
-    }
+macro_rules! lanes_of_packets {
+    ($type:ty) => {
+        impl Lanes for $type {
+            fn is_here() -> bool {
+                Self::detect().is_some()
+            }
+            fn from_lanes(lane: impl FnMut(usize) -> f32) -> Self {
+                let lanes: Vec<f32> = (0..Self::LANES).map(lane).collect();
+                Self::load(Self::detect().expect("a machine that has them"), &lanes)
+            }
+            fn lane(self, lane: usize) -> f32 {
+                SimdLanes::lane(self, lane).expect("a lane of that number")
+            }
+            fn truth(mask: Self::Mask, lane: usize) -> bool {
+                mask.to_bits() >> lane & 1 == 1
+            }
+        }
+    };
 }
+
+lanes_of_packets!(F32x8);
+#[cfg(target_arch = "x86_64")]
+lanes_of_packets!(gsdf_simd::Avx2x8);
+#[cfg(target_arch = "x86_64")]
+lanes_of_packets!(gsdf_simd::Avx512x16);
 
 /// The mask of these truth values, made by a comparison as every mask is.
 #[must_use]

@@ -14,6 +14,8 @@ pub trait Plain: Lane + Debug {
     fn from_bits(bits: u64) -> Self;
     /// The standard library's square root: the processor's instruction.
     fn std_sqrt(self) -> Self;
+    /// The standard library's next number above.
+    fn std_next_up(self) -> Self;
     /// The number with its sign bit as told.
     fn signed(self, negative: bool) -> Self;
     /// The sign bit.
@@ -35,6 +37,9 @@ macro_rules! plain {
             }
             fn std_sqrt(self) -> Self {
                 self.sqrt()
+            }
+            fn std_next_up(self) -> Self {
+                <$float>::next_up(self)
             }
             fn signed(self, negative: bool) -> Self {
                 let sign = 1 << (<$bits>::BITS - 1);
@@ -87,6 +92,9 @@ impl Plain for Fpu {
     }
     fn std_sqrt(self) -> Self {
         Self(self.0.std_sqrt())
+    }
+    fn std_next_up(self) -> Self {
+        Self(self.0.std_next_up())
     }
     fn signed(self, negative: bool) -> Self {
         Self(self.0.signed(negative))
