@@ -185,15 +185,31 @@ impl Raster {
     /// Origin and direction of the ray through any place of the picture, in any arithmetic: the same bits in every
     /// lane.
     #[inline(always)]
-    #[allow(clippy::cast_precision_loss, reason = "pictures are narrower than 2^24 pixels")]
     pub fn line<T: Real>(&self, x: T, y: T) -> (V3<T>, V3<T>) {
-        let camera = &self.camera;
-        let (width, height) = (self.width as f32, self.height as f32);
+        self.line_to(self.across(x), self.upward(y))
+    }
+
+    /// How far column `x` is from the middle of the picture: what all its rays have in common.
+    #[inline(always)]
+    #[allow(clippy::cast_precision_loss, reason = "pictures are narrower than 2^24 pixels")]
+    pub fn across<T: Real>(&self, x: T) -> V3<T> {
         let pixel = x.splat_like(self.pixel());
-        let across = V3::splat(x, camera.right).scaled((x - x.splat_like(0.5 * width)) * pixel);
-        let upward = V3::splat(x, camera.up).scaled((x.splat_like(0.5 * height) - y) * pixel);
-        let (eye, forward) = (V3::splat(x, camera.eye), V3::splat(x, camera.forward));
-        match camera.projection {
+        V3::splat(x, self.camera.right).scaled((x - x.splat_like(0.5 * self.width as f32)) * pixel)
+    }
+
+    /// How far row `y` is from the middle of the picture.
+    #[inline(always)]
+    #[allow(clippy::cast_precision_loss, reason = "pictures are lower than 2^24 pixels")]
+    pub fn upward<T: Real>(&self, y: T) -> V3<T> {
+        let pixel = y.splat_like(self.pixel());
+        V3::splat(y, self.camera.up).scaled((y.splat_like(0.5 * self.height as f32) - y) * pixel)
+    }
+
+    /// Origin and direction of the ray through the place that is so far from the middle of the picture.
+    #[inline(always)]
+    pub fn line_to<T: Real>(&self, across: V3<T>, upward: V3<T>) -> (V3<T>, V3<T>) {
+        let (eye, forward) = (V3::splat(across.x, self.camera.eye), V3::splat(across.x, self.camera.forward));
+        match self.camera.projection {
             Projection::Pinhole => (eye, forward + across + upward),
             Projection::Orthographic => (eye + across + upward, forward),
         }

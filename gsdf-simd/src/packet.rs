@@ -211,8 +211,7 @@ fn largest<T: Lanes>(v: V3<T>) -> T {
 /// A direction scaled, exactly, to a largest component in [1, 2), and by what.
 #[inline(always)]
 pub(crate) fn scaled<T: Lanes>(direction: V3<T>) -> (V3<T>, T) {
-    let largest = largest(direction);
-    let scale = largest.splat_like(1.0) / largest.power_of_two_below();
+    let scale = largest(direction).per_power_of_two_below();
     (direction.scaled(scale), scale)
 }
 

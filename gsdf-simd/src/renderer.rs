@@ -107,7 +107,7 @@ where
         [] => Effort::default(),
         [only] => {
             let normals = target.wants_normals();
-            only.render(view, rows.start, normals, &mut |x, tile| target.put(x, 0, tile))
+            only.render(view, rows.start, normals, &mut target)
         }
         _ => {
             let half = work.len() / 2;
@@ -125,8 +125,8 @@ where
 
 /// What renders a row of tiles, in lanes of some type.
 trait Row<L: Solid>: Send {
-    /// Renders a row, and puts each tile where its first column tells.
-    fn render(&mut self, view: &View<'_, '_, L>, row: usize, normals: bool, put: &mut dyn FnMut(u32, &Tile)) -> Effort;
+    /// Renders a row of tiles.
+    fn render(&mut self, view: &View<'_, '_, L>, row: usize, normals: bool, target: &mut dyn PutTiles) -> Effort;
 }
 
 /// Makes a [`Row`] for the lanes of a level.
@@ -139,6 +139,7 @@ impl<'s, L: Solid + Send + Sync + 's> Work for MakeRow<'s, L> {
         Box::new(RowOf {
             token,
             work: Workspace::<T, L>::new(token),
+            tile: Box::new(Tile::NOTHING),
         })
     }
 }
@@ -146,15 +147,18 @@ impl<'s, L: Solid + Send + Sync + 's> Work for MakeRow<'s, L> {
 struct RowOf<T: Lanes, L> {
     token: T::Token,
     work: Workspace<T, L>,
+    /// For targets that do not lay out their pixels as tiles.
+    tile: Box<Tile>,
 }
 
 impl<T: Lanes, L: Solid + Send + Sync> Row<L> for RowOf<T, L> {
-    fn render(&mut self, view: &View<'_, '_, L>, row: usize, normals: bool, put: &mut dyn FnMut(u32, &Tile)) -> Effort {
-        let (token, work) = (self.token, &mut self.work);
+    fn render(&mut self, view: &View<'_, '_, L>, row: usize, normals: bool, target: &mut dyn PutTiles) -> Effort {
+        let Self { token, work, tile } = self;
+        let token = *token;
         T::vectorize(
             token,
             #[inline(always)]
-            || render_row(token, view, row, normals, work, put),
+            || render_row(token, view, row, normals, work, tile, target),
         )
     }
 }
@@ -166,19 +170,48 @@ fn render_row<T: Lanes, L: Solid>(
     row: usize,
     normals: bool,
     work: &mut Workspace<T, L>,
-    put: &mut dyn FnMut(u32, &Tile),
+    own: &mut Tile,
+    target: &mut dyn PutTiles,
 ) -> Effort {
     let (width, height) = (view.raster.width(), view.raster.height());
     let y = (row * TILE_SIDE) as u32;
+    let side = TILE_SIDE as u32;
     let mut effort = Effort::default();
     work.computed = 0;
     let mut x = 0;
     while x < width {
-        cast(token, view, x, y, normals, work);
-        effort.hits += u64::from(work.tile.hits(width - x, height - y));
-        put(x, &work.tile);
-        x += TILE_SIDE as u32;
+        let (place, is_own) = match target.place(x) {
+            Some(place) => (place, false),
+            None => (&mut *own, true),
+        };
+        let mut hits = cast(token, view, [x, y], normals, work, place);
+        if width - x < side || height - y < side {
+            hits = place.hits(width - x, height - y);
+        }
+        if is_own {
+            target.put(x, own);
+        }
+        effort.hits += u64::from(hits);
+        x += side;
     }
     effort.spans = work.computed;
     effort
+}
+
+/// A row of tiles of a [`Target`].
+trait PutTiles {
+    /// The tile from this column on, if that is how the pixels are kept.
+    fn place(&mut self, x: u32) -> Option<&mut Tile>;
+    /// Takes the tile from this column on.
+    fn put(&mut self, x: u32, tile: &Tile);
+}
+
+impl<C: Target> PutTiles for C {
+    fn place(&mut self, x: u32) -> Option<&mut Tile> {
+        self.tile(x, 0)
+    }
+
+    fn put(&mut self, x: u32, tile: &Tile) {
+        Target::put(self, x, 0, tile);
+    }
 }

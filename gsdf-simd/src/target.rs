@@ -13,6 +13,12 @@ pub trait Target: Send + Sized {
     /// The part above a row and the part from it on, for two threads to fill. The row is a multiple of 16.
     fn split_at(self, row: u32) -> (Self, Self);
 
+    /// The tile whose left upper pixel is in column `x` and row `y`, if the pixels are kept as tiles, to be filled in
+    /// place; [`put`](Target::put) is not called for it. Its normals are left as they are where none are wanted.
+    fn tile(&mut self, _x: u32, _y: u32) -> Option<&mut Tile> {
+        None
+    }
+
     /// Takes the tile whose left upper pixel is in column `x` and row `y`, counted from its own first row; both are
     /// multiples of 16. A tile may reach beyond the right or the lower edge.
     fn put(&mut self, x: u32, y: u32, tile: &Tile);
@@ -101,15 +107,13 @@ impl Target for TilesMut<'_> {
         (of(above), of(below))
     }
 
-    #[inline]
+    fn tile(&mut self, x: u32, y: u32) -> Option<&mut Tile> {
+        self.tiles.get_mut(y as usize / TILE_SIDE * self.columns + x as usize / TILE_SIDE)
+    }
+
     fn put(&mut self, x: u32, y: u32, tile: &Tile) {
-        let index = y as usize / TILE_SIDE * self.columns + x as usize / TILE_SIDE;
-        if let Some(place) = self.tiles.get_mut(index) {
-            place.distance = tile.distance;
-            place.leaf = tile.leaf;
-            if self.normals {
-                place.normal = tile.normal;
-            }
+        if let Some(place) = self.tile(x, y) {
+            place.clone_from(tile);
         }
     }
 }

@@ -169,6 +169,18 @@ macro_rules! lanes_in_a_register {
                 Self((bits & f32::INFINITY.to_bits().cast_signed()).bitcast())
             }
             #[inline(always)]
+            fn per_power_of_two_below(self) -> Self {
+                let bits: $integers<$token> = self.power_of_two_below().0.bitcast();
+                Self(($integers::splat(self.0.simd, 254 << 23) - bits).bitcast())
+            }
+            #[inline(always)]
+            fn store_numbers(self, place: &mut [u32]) {
+                let infinite = self.0.simd_eq(f32::INFINITY);
+                let numbers: $integers<$token> = self.0.to_int();
+                let numbers: [i32; $lanes] = infinite.select($integers::splat(self.0.simd, -1), numbers).into();
+                put(numbers.map(i32::cast_unsigned), place);
+            }
+            #[inline(always)]
             fn least(self) -> f32 {
                 self.0.reduce_min()
             }

@@ -43,6 +43,12 @@ pub trait Lanes: Real<Scalar = f32, Mask: LaneMask> + Send + Sync + 'static {
     /// The power of two at or below each lane, for positive normal numbers: their exponent bits alone.
     #[must_use]
     fn power_of_two_below(self) -> Self;
+    /// The inverse of that power of two, for numbers from 2^-126 to 2^126.
+    #[must_use]
+    fn per_power_of_two_below(self) -> Self;
+    /// Puts the lanes into a slice as integers, first to last, as far as it reaches: whole numbers from 0 to 2^24, and
+    /// `u32::MAX` for infinity.
+    fn store_numbers(self, place: &mut [u32]);
     /// The least lane. Either zero if both are least; some number or NaN if a lane is NaN.
     #[must_use]
     fn least(self) -> f32;
@@ -88,7 +94,7 @@ fn padded<const N: usize>(numbers: &[f32]) -> [f32; N] {
 
 /// Puts numbers into a slice, as far as it reaches.
 #[inline(always)]
-fn put<const N: usize>(numbers: [f32; N], place: &mut [f32]) {
+fn put<N: Copy, const LANES: usize>(numbers: [N; LANES], place: &mut [N]) {
     match place.first_chunk_mut() {
         Some(whole) => *whole = numbers,
         None => {

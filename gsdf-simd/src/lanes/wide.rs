@@ -233,6 +233,22 @@ impl Lanes for F32x8 {
         Self(self.0 & f32x8::splat(f32::INFINITY))
     }
     #[inline(always)]
+    fn per_power_of_two_below(self) -> Self {
+        Self::splat(1.0) / self.power_of_two_below()
+    }
+    #[inline(always)]
+    fn store_numbers(self, place: &mut [u32]) {
+        // A mask is all ones where it is true: what infinity is to become. Elsewhere the numbers convert exactly.
+        let infinite = self.0.simd_eq(f32x8::splat(f32::INFINITY)).to_array();
+        let numbers = Self::select(Mask8(f32x8::new(infinite)), Self::splat(0.0), self);
+        let numbers = numbers.0.fast_trunc_int().to_array();
+        let mut lanes = [0; 8];
+        for (lane, (number, infinite)) in lanes.iter_mut().zip(numbers.into_iter().zip(infinite)) {
+            *lane = number.cast_unsigned() | infinite.to_bits();
+        }
+        put(lanes, place);
+    }
+    #[inline(always)]
     fn least(self) -> f32 {
         let [a, b, c, d, e, f, g, h] = self.to_array();
         a.min(b).min(c.min(d)).min(e.min(f).min(g.min(h)))

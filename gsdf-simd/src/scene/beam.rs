@@ -88,15 +88,14 @@ impl Beam {
 
     /// Which of a group's boxes the beam may meet.
     #[inline(always)]
-    pub(crate) fn meet<T: Lanes>(&self, token: T::Token, group: &Group) -> Met {
-        let mut met = Met::NOTHING;
+    pub(crate) fn meet<T: Lanes>(&self, token: T::Token, group: &Group, met: &mut Met) {
+        met.bits = 0;
         let mut from = 0;
         while from < FANOUT {
             let to = from + T::LANES;
-            self.meet_some::<T>(token, group, from, to, &mut met);
+            self.meet_some::<T>(token, group, from, to, met);
             from = to;
         }
-        met
     }
 
     #[inline(always)]
@@ -167,25 +166,27 @@ pub(crate) struct Walk {
     /// Groups still to be visited: level, number, and the least depth at which the beam meets them.
     waiting: [(u8, u32, f32); MOST_LEVELS * FANOUT],
     length: usize,
+    /// What the beam meets in the group at hand.
+    pub(crate) met: Met,
 }
 
 impl Walk {
-    #[inline(always)]
-    pub(crate) fn new(tree: &Tree) -> Self {
-        let mut walk = Self {
+    /// A walk that is over.
+    pub(crate) fn new() -> Self {
+        Self {
             waiting: [(0, 0, 0.0); MOST_LEVELS * FANOUT],
             length: 0,
-        };
-        if let Some(top) = tree.top() {
-            walk.push(top, 0, 0.0);
+            met: Met::NOTHING,
         }
-        walk
     }
 
-    /// Whether no group was visited yet, or all were.
+    /// Begins at the top of a tree.
     #[inline(always)]
-    pub(crate) fn is_at_start(&self) -> bool {
-        self.length <= 1
+    pub(crate) fn begin(&mut self, tree: &Tree) {
+        self.length = 0;
+        if let Some(top) = tree.top() {
+            self.push(top, 0, 0.0);
+        }
     }
 
     #[inline(always)]
@@ -196,9 +197,16 @@ impl Walk {
         }
     }
 
-    /// The next group of items that the beam meets nearer than `far`: the number of its first item, and its boxes.
+    /// Whether there is no group left to visit.
     #[inline(always)]
-    pub(crate) fn next<T: Lanes>(&mut self, token: T::Token, tree: &Tree, beam: &Beam, far: f32) -> Option<(usize, Met)> {
+    pub(crate) fn is_over(&self) -> bool {
+        self.length == 0
+    }
+
+    /// Goes on to the next group of items that the beam meets nearer than `far`, and tells the number of its first item;
+    /// its boxes are in `met`.
+    #[inline(always)]
+    pub(crate) fn next<T: Lanes>(&mut self, token: T::Token, tree: &Tree, beam: &Beam, far: f32) -> Option<usize> {
         while let Some(last) = self.length.checked_sub(1) {
             self.length = last;
             let (level, number, near) = *self.waiting.get(last)?;
@@ -207,16 +215,16 @@ impl Walk {
             }
             let (level, number) = (usize::from(level), number as usize);
             let (group, held) = tree.group(level, number)?;
-            let mut met = beam.meet::<T>(token, group);
-            met.bits &= held;
+            beam.meet::<T>(token, group, &mut self.met);
+            self.met.bits &= held;
             if level == 0 {
-                return Some((number * FANOUT, met));
+                return Some(number * FANOUT);
             }
             // The nearest is pushed last, to be visited first.
-            let mut order = Nearest::new(&met);
+            let mut order = Nearest::new(&self.met);
             let from = self.length;
             while let Some(place) = order.next() {
-                self.push(level - 1, number * FANOUT + place, met.near[place]);
+                self.push(level - 1, number * FANOUT + place, self.met.near[place]);
             }
             if let Some(pushed) = self.waiting.get_mut(from..self.length) {
                 pushed.reverse();
@@ -235,13 +243,16 @@ pub(crate) struct Nearest {
 }
 
 impl Nearest {
+    /// None.
+    pub(crate) const NONE: Self = Self {
+        places: [0; FANOUT],
+        length: 0,
+        given: 0,
+    };
+
     #[inline(always)]
     pub(crate) fn new(met: &Met) -> Self {
-        let mut sorted = Self {
-            places: [0; FANOUT],
-            length: 0,
-            given: 0,
-        };
+        let mut sorted = Self::NONE;
         let mut bits = met.bits;
         while bits != 0 {
             let place = bits.trailing_zeros() as usize & (FANOUT - 1);

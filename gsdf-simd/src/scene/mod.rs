@@ -6,7 +6,7 @@ mod split;
 mod tree;
 mod view;
 
-pub(crate) use beam::{Beam, Met, Nearest, Walk};
+pub(crate) use beam::{Beam, Nearest, Walk};
 pub(crate) use tree::{FANOUT, Tree};
 pub(crate) use view::View;
 

@@ -52,17 +52,16 @@ impl<'s, 'a, L: Solid> View<'s, 'a, L> {
         self.raster.camera().projection() == Projection::Pinhole
     }
 
-    /// The leaf in a place of the scene as seen from the eye, where the rays have that in common: what was seen before, or
-    /// what is put into `now`.
+    /// The leaf in a place of the scene as it was seen from the eye for the whole picture, if it was.
     #[inline(always)]
-    pub(crate) fn seen<'v>(&'v self, place: u32, solid: &L, frame: u16, now: &'v mut Option<L::Seen<f32>>) -> Option<&'v L::Seen<f32>> {
-        if !self.shares_origin() {
-            return None;
-        }
-        match self.seen.get(place as usize) {
-            Some(seen) => Some(seen),
-            None => Some(now.insert(seen_from(solid, self.scene.program.pose(frame), &self.raster))),
-        }
+    pub(crate) fn seen_before(&self, place: u32) -> Option<&L::Seen<f32>> {
+        self.seen.get(place as usize)
+    }
+
+    /// A solid in a frame, as seen from the eye.
+    #[inline(always)]
+    pub(crate) fn see(&self, solid: &L, frame: u16) -> L::Seen<f32> {
+        seen_from(solid, self.scene.program.pose(frame), &self.raster)
     }
 }
 

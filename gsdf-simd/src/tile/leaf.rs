@@ -19,8 +19,14 @@ pub(crate) fn spans<T: Lanes, L: Solid>(
 ) {
     let Some((solid, frame)) = view.scene.leaf(place) else { return };
     let lines = rays.lines_in(frame, view.scene.program(), which);
-    let mut now = None;
-    let seen = view.seen(place, solid, frame, &mut now);
+    let now;
+    let seen = match view.seen_before(place) {
+        None if view.shares_origin() => {
+            now = view.see(solid, frame);
+            Some(&now)
+        }
+        before => before,
+    };
     T::vectorize(
         token,
         #[inline(always)]
@@ -28,27 +34,70 @@ pub(crate) fn spans<T: Lanes, L: Solid>(
     );
 }
 
-/// The outward normals of the leaf in a place of the scene where the rays of a packet cross its surface.
+/// The normals of the leaf in a place of the scene, outward from the program, where the rays of a packet cross its surface.
 #[inline(always)]
-pub(crate) fn normals<T: Lanes, L: Solid>(
+pub(crate) fn normals<'v, 'a, T: Lanes, L: Solid>(
     token: T::Token,
-    view: &View<'_, '_, L>,
-    place: u32,
+    view: &'v View<'_, 'a, L>,
+    asked: &mut Asked<'v, 'a, L>,
+    number: u32,
     packet: usize,
     rays: &mut Rays<T>,
     t: T,
 ) -> V3<T> {
-    let Some((solid, frame)) = view.scene.leaf(place) else { return V3::new(t, t, t) };
-    let line = rays.line_in(frame, view.scene.program(), packet);
-    let mut now = None;
-    let seen = view.seen(place, solid, frame, &mut now);
+    if asked.number != number {
+        asked.ask(view, number);
+    }
+    let Some(solid) = asked.solid else { return V3::new(t, t, t) };
+    let line = rays.line_in(asked.frame, view.scene.program(), packet);
+    let seen = asked.seen_before.or(asked.seen_now.as_ref());
     let normal = T::vectorize(
         token,
         #[inline(always)]
         || solid.surface_on(seen, line, t).normal,
     );
-    match view.scene.program().pose(frame) {
+    let outward = match view.scene.program().pose(asked.frame) {
         Some(pose) => pose.normal_to_world(normal),
         None => normal,
+    };
+    if asked.negative { -outward } else { outward }
+}
+
+/// The leaf that was asked for normals last: most likely the next packet will ask it again.
+pub(crate) struct Asked<'v, 'a, L: Solid> {
+    number: u32,
+    solid: Option<&'a L>,
+    frame: u16,
+    negative: bool,
+    seen_before: Option<&'v L::Seen<f32>>,
+    seen_now: Option<L::Seen<f32>>,
+}
+
+impl<'v, 'a, L: Solid> Asked<'v, 'a, L> {
+    /// None was asked.
+    #[inline(always)]
+    pub(crate) fn none() -> Self {
+        Self {
+            number: u32::MAX,
+            solid: None,
+            frame: 0,
+            negative: false,
+            seen_before: None,
+            seen_now: None,
+        }
+    }
+
+    #[inline(always)]
+    fn ask(&mut self, view: &'v View<'_, 'a, L>, number: u32) {
+        let Some((place, literal)) = view.scene.literal(number) else { return };
+        let Some((solid, frame)) = view.scene.leaf(place) else { return };
+        self.number = number;
+        self.solid = Some(solid);
+        self.frame = frame;
+        self.negative = literal.negative;
+        self.seen_before = view.seen_before(place);
+        if self.seen_before.is_none() && view.shares_origin() {
+            self.seen_now = Some(view.see(solid, frame));
+        }
     }
 }

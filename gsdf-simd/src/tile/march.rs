@@ -4,7 +4,7 @@ use super::leaf;
 use super::reduce::{Known, Reduced};
 use super::state::Workspace;
 use crate::lanes::{Lanes, MOST_LANES};
-use crate::scene::{Beam, FANOUT, Form, View, Walk};
+use crate::scene::{Beam, FANOUT, Form, View};
 use core::ops::Range;
 use gsdf_nostd::{Mask, Node, Solid, Span, attribute, march};
 
@@ -35,9 +35,9 @@ pub(crate) fn cast<T: Lanes, L: Solid>(
     let (Some(nodes), Some(tree)) = (nodes, tree) else { return };
     work.live.clear();
     work.live.resize(if all { scene.program().leaves() } else { places.len() }, false);
-    let mut walk = Walk::new(tree);
-    while let Some((item, met)) = walk.next::<T>(token, tree, beam, f32::INFINITY) {
-        let mut bits = met.bits;
+    work.inner_walk.begin(tree);
+    while let Some(item) = work.inner_walk.next::<T>(token, tree, beam, f32::INFINITY) {
+        let mut bits = work.inner_walk.met.bits;
         while bits != 0 {
             let place = bits.trailing_zeros() as usize % FANOUT;
             bits &= bits - 1;

@@ -13,20 +13,28 @@ pub use pixels::{TILE_PIXELS, TILE_SIDE, Tile};
 pub(crate) use state::Workspace;
 
 use crate::lanes::Lanes;
-use crate::scene::{Beam, FANOUT, Form, Met, Nearest, View, Walk};
+use crate::scene::{Beam, FANOUT, Form, Nearest, View};
 use core::ops::Range;
 use gsdf_nostd::Solid;
 use rays::packets_within;
 
-/// Casts the rays through the pixels of the tile whose left upper pixel is (`x`, `y`), into `work.tile`.
+/// Casts the rays through the pixels of the tile whose left upper pixel is (`x`, `y`), and tells how many hit something.
 #[inline(always)]
-pub(crate) fn cast<T: Lanes, L: Solid>(token: T::Token, view: &View<'_, '_, L>, x: u32, y: u32, normals: bool, work: &mut Workspace<T, L>) {
+pub(crate) fn cast<T: Lanes, L: Solid>(
+    token: T::Token,
+    view: &View<'_, '_, L>,
+    [x, y]: [u32; 2],
+    normals: bool,
+    work: &mut Workspace<T, L>,
+    tile: &mut Tile,
+) -> u32 {
     let scene = view.scene;
     work.rays
         .aim(token, &view.raster, x, y, view.valid, scene.divides_by_components());
     work.met.clear(token);
     let beam = Beam::new(&view.raster, x, y, TILE_SIDE as u32);
-    let mut visits = Visits::new(view);
+    work.walk.begin(scene.tree());
+    let mut visits = Visits::new(scene.unbounded());
     while let Some((visit, which)) = visits.next(token, view, &beam, work) {
         let form = match visit {
             Visit::Part(number) => scene.part(number).map(|part| (part.leaves.clone(), &part.form)),
@@ -41,7 +49,7 @@ pub(crate) fn cast<T: Lanes, L: Solid>(token: T::Token, view: &View<'_, '_, L>, 
             None => {}
         }
     }
-    shade::shade(token, view, normals, work);
+    shade::shade(token, view, normals, work, tile)
 }
 
 /// What the rays of some packets are cast at.
@@ -56,10 +64,8 @@ enum Visit {
 /// What the rays of a tile have to visit, in the order in which that is least work: the parts with bounds, roughly from
 /// near to far; those without; and where rays start inside of a part, the whole program again.
 struct Visits {
-    walk: Walk,
-    /// The group of parts at hand.
+    /// The first part of the group at hand, and those of the group that are left.
     first: usize,
-    met: Met,
     nearest: Nearest,
     unbounded: Range<usize>,
     whole: bool,
@@ -67,14 +73,11 @@ struct Visits {
 
 impl Visits {
     #[inline(always)]
-    fn new<L: Solid>(view: &View<'_, '_, L>) -> Self {
-        let met = Met::NOTHING;
+    fn new(unbounded: Range<usize>) -> Self {
         Self {
-            walk: Walk::new(view.scene.tree()),
             first: 0,
-            nearest: Nearest::new(&met),
-            met,
-            unbounded: view.scene.unbounded(),
+            nearest: Nearest::NONE,
+            unbounded,
             whole: false,
         }
     }
@@ -85,24 +88,26 @@ impl Visits {
         token: T::Token,
         view: &View<'_, '_, L>,
         beam: &Beam,
-        work: &Workspace<T, L>,
+        work: &mut Workspace<T, L>,
     ) -> Option<(Visit, u32)> {
         loop {
             while let Some(place) = self.nearest.next() {
                 let place = place % FANOUT;
-                let met = &self.met;
+                let met = &work.walk.met;
                 let touched = packets_within::<T>(met.left[place], met.right[place], met.top[place], met.bottom[place]);
                 let open = work.met.open(&work.rays, touched, met.near[place]);
                 if open != 0 {
                     return Some((Visit::Part(self.first + place), open));
                 }
             }
-            let far = if self.walk.is_at_start() { f32::INFINITY } else { work.met.farthest(&work.rays) };
-            match self.walk.next::<T>(token, view.scene.tree(), beam, far) {
-                Some((first, met)) => {
+            if work.walk.is_over() {
+                break;
+            }
+            let far = work.met.farthest(&work.rays);
+            match work.walk.next::<T>(token, view.scene.tree(), beam, far) {
+                Some(first) => {
                     self.first = first;
-                    self.nearest = Nearest::new(&met);
-                    self.met = met;
+                    self.nearest = Nearest::new(&work.walk.met);
                 }
                 None => break,
             }

@@ -54,13 +54,6 @@ impl Tile {
     #[inline(always)]
     pub(crate) fn hits(&self, width: u32, height: u32) -> u32 {
         let (width, height) = (width as usize, height as usize);
-        if width >= TILE_SIDE && height >= TILE_SIDE {
-            let mut hits = 0;
-            for distance in &self.distance {
-                hits += u32::from(*distance < f32::INFINITY);
-            }
-            return hits;
-        }
         let mut hits = 0;
         for y in 0..height.min(TILE_SIDE) {
             for x in 0..width.min(TILE_SIDE) {

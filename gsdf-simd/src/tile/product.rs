@@ -5,7 +5,7 @@ use super::leaf;
 use super::rays::{MOST_PACKETS, packets_within};
 use super::state::{MOST_CUTS, Workspace};
 use crate::lanes::Lanes;
-use crate::scene::{Beam, FANOUT, Tree, View, Walk};
+use crate::scene::{Beam, FANOUT, Tree, View};
 use core::ops::Range;
 use gsdf_nostd::{Mask, Solid, Span};
 
@@ -128,12 +128,13 @@ fn begin<T: Lanes, L>(which: u32, work: &mut Workspace<T, L>) -> u32 {
 #[inline(always)]
 fn gather<T: Lanes, L>(token: T::Token, cuts: &Tree, beam: &Beam, first: u32, which: u32, work: &mut Workspace<T, L>) {
     work.cuts.clear();
-    let mut walk = Walk::new(cuts);
-    while let Some((item, met)) = walk.next::<T>(token, cuts, beam, f32::INFINITY) {
-        let mut bits = met.bits;
+    work.inner_walk.begin(cuts);
+    while let Some(item) = work.inner_walk.next::<T>(token, cuts, beam, f32::INFINITY) {
+        let mut bits = work.inner_walk.met.bits;
         while bits != 0 {
             let place = bits.trailing_zeros() as usize % FANOUT;
             bits &= bits - 1;
+            let met = &work.inner_walk.met;
             let touched = which & packets_within::<T>(met.left[place], met.right[place], met.top[place], met.bottom[place]);
             if touched != 0 {
                 work.cuts.push((first + (item + place) as u32, touched));

@@ -86,20 +86,34 @@ impl<T: Lanes> Rays<T> {
         self.posed = 0;
         const ACROSS: [f32; 16] = [0.5, 1.5, 2.5, 3.5, 0.5, 1.5, 2.5, 3.5, 0.5, 1.5, 2.5, 3.5, 0.5, 1.5, 2.5, 3.5];
         const DOWN: [f32; 16] = [0.5, 0.5, 0.5, 0.5, 1.5, 1.5, 1.5, 1.5, 2.5, 2.5, 2.5, 2.5, 3.5, 3.5, 3.5, 3.5];
-        let (across, down) = (T::load(token, &ACROSS), T::load(token, &DOWN));
-        let places = self.lines.iter_mut().zip(&mut self.scales).zip(&mut self.starts);
-        for (packet, ((line, scale), start)) in places.enumerate().take(packets::<T>()) {
-            let left = x as f32 + (packet % COLUMNS * BLOCK_SIDE) as f32;
-            let top = y as f32 + (packet / COLUMNS * height::<T>()) as f32;
-            let (x, y) = (across + across.splat_like(left), down + down.splat_like(top));
-            if valid {
-                let (origin, direction) = raster.line(x, y);
-                let (direction, by) = scaled(direction);
-                let toward = if components { Toward::new(direction) } else { Toward::without_components(direction) };
-                *line = Line { origin, toward };
-                (*scale, *start) = (by, x.splat_like(0.0));
-            } else {
-                (*line, *scale, *start) = Packet::through(raster, x, y).into_parts();
+        let (places, rows) = (T::load(token, &ACROSS), T::load(token, &DOWN));
+        let mut columns = [places; COLUMNS];
+        for (number, column) in columns.iter_mut().enumerate() {
+            *column = places + T::splat(token, x as f32 + (number * BLOCK_SIDE) as f32);
+        }
+        if !valid {
+            for packet in 0..packets::<T>() {
+                let down = rows + T::splat(token, y as f32 + (packet / COLUMNS * height::<T>()) as f32);
+                let through = Packet::through(raster, columns[packet % COLUMNS], down);
+                (self.lines[packet], self.scales[packet], self.starts[packet]) = through.into_parts();
+            }
+            return;
+        }
+        let mut across = [raster.across(places); COLUMNS];
+        for (across, column) in across.iter_mut().zip(columns) {
+            *across = raster.across(column);
+        }
+        let zero = T::splat(token, 0.0);
+        for row in 0..packets::<T>() / COLUMNS {
+            let upward = raster.upward(rows + T::splat(token, y as f32 + (row * height::<T>()) as f32));
+            for (column, across) in across.into_iter().enumerate() {
+                let packet = row * COLUMNS + column;
+                let (origin, direction) = raster.line_to(across, upward);
+                let (direction, scale) = scaled(direction);
+                let line = &mut self.lines[packet];
+                line.origin = origin;
+                line.toward = if components { Toward::new(direction) } else { Toward::without_components(direction) };
+                (self.scales[packet], self.starts[packet]) = (scale, zero);
             }
         }
     }

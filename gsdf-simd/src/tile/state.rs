@@ -1,8 +1,8 @@
 //! What is known of a tile while its parts are visited, and where it is kept.
 
-use super::pixels::Tile;
 use super::rays::{MOST_PACKETS, Rays, packets};
 use crate::lanes::Lanes;
+use crate::scene::Walk;
 use gsdf_nostd::{Mask, Node, Span};
 
 /// How many complements of a part are looked at together.
@@ -99,7 +99,9 @@ impl<T: Lanes> Met<T> {
 pub(crate) struct Workspace<T: Lanes, L> {
     pub(crate) rays: Rays<T>,
     pub(crate) met: Met<T>,
-    pub(crate) tile: Box<Tile>,
+    /// The walk through the parts of the scene, and those through the leaves of a part.
+    pub(crate) walk: Walk,
+    pub(crate) inner_walk: Walk,
     /// Spans, packet by packet or leaf by leaf.
     pub(crate) spans: Vec<Span<T>>,
     /// The leaves at the entries of the first of them.
@@ -132,7 +134,8 @@ impl<T: Lanes, L> Workspace<T, L> {
         Self {
             rays: Rays::new(token),
             met: Met::new(token),
-            tile: Box::new(Tile::NOTHING),
+            walk: Walk::new(),
+            inner_walk: Walk::new(),
             spans: vec![empty; (1 + MOST_CUTS) * MOST_PACKETS],
             leaves: [nothing; MOST_PACKETS],
             nodes: Vec::new(),
