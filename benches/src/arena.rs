@@ -4,6 +4,7 @@ use crate::frame::Frame;
 use anyhow::{Context, Result};
 use gsdf_demo::scenes::Scene;
 use gsdf_nostd::{Program, Raster, SphereTracer};
+use gsdf_simd::Level;
 
 /// The marcher's tolerance, relative to the distance travelled.
 pub const EPSILON: f32 = 1e-4;
@@ -24,6 +25,8 @@ pub struct Arena<'a> {
     pub end: f32,
     /// The marcher.
     pub tracer: SphereTracer,
+    /// The level at which packets are cast and traced.
+    pub level: Level,
 }
 
 impl<'a> Arena<'a> {
@@ -39,9 +42,16 @@ impl<'a> Arena<'a> {
             raster: scene.camera.raster(size, size),
             end: f32::INFINITY,
             tracer: tracer(1.0),
+            level: Level::best(),
         };
         arena.end = 1.01 * arena.exact().farthest().unwrap_or(1.0);
         Ok(arena)
+    }
+
+    /// The same at another level.
+    #[must_use]
+    pub fn at_level(&self, level: Level) -> Self {
+        Self { level, ..self.clone() }
     }
 
     /// The same with another relaxation of the marcher.

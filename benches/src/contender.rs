@@ -1,9 +1,9 @@
-//! The contenders: two methods, each with one ray at a time and with eight.
+//! The contenders: two methods, each with one ray at a time and with packets.
 
 use crate::arena::Arena;
 use crate::frame::Frame;
-use gsdf_nostd::{Ray, Real, Span};
-use gsdf_simd::{F32x8, Image, Packet, Pixel};
+use gsdf_nostd::{Ray, Span};
+use gsdf_simd::{Image, Lanes, MOST_LANES, Packet, Pixel, Work};
 use rayon::prelude::*;
 
 /// Who renders.
@@ -12,11 +12,11 @@ use rayon::prelude::*;
 /// off with the distance. All work in bands of 16 rows on the threads of the current pool.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Contender {
-    /// Closed form, eight rays at once: [`Image`].
+    /// Closed form, as many rays at once as the level has lanes: [`Image`].
     ClosedPackets,
     /// Closed form, ray by ray: [`Program::along`](gsdf_nostd::Program::along) and `cast`.
     ClosedRays,
-    /// Sphere tracing, eight rays at once: [`Packet::trace`].
+    /// Sphere tracing, as many rays at once: [`Packet::trace`].
     TracedPackets,
     /// Sphere tracing, ray by ray: [`SphereTracer::cast`](gsdf_nostd::SphereTracer::cast).
     TracedRays,
@@ -51,7 +51,9 @@ impl Contender {
         let width = arena.raster.width() as usize;
         match self {
             Self::ClosedPackets => {
-                Image::new(arena.program, arena.raster).render(frame.pixels.as_mut_slice());
+                Image::new(arena.program, arena.raster)
+                    .at_level(arena.level)
+                    .render(frame.pixels.as_mut_slice());
             }
             Self::ClosedRays => in_bands(
                 &mut frame.pixels,
@@ -59,7 +61,10 @@ impl Contender {
                 || vec![Span::EMPTY; arena.program.leaves()],
                 |spans, y, row| closed_rays(arena, spans, y, row),
             ),
-            Self::TracedPackets => in_bands(&mut frame.depths, width, || (), |(), y, row| traced_packets(arena, y, row)),
+            Self::TracedPackets => arena.level.run(TracedPackets {
+                arena,
+                depths: &mut frame.depths,
+            }),
             Self::TracedRays => in_bands(&mut frame.depths, width, || (), |(), y, row| traced_rays(arena, y, row)),
         }
     }
@@ -91,15 +96,47 @@ fn closed_rays(arena: &Arena<'_>, spans: &mut [Span<f32>], y: u32, row: &mut [Pi
     }
 }
 
-fn traced_packets(arena: &Arena<'_>, y: u32, row: &mut [f32]) {
-    let (zero, end) = (F32x8::splat(0.0), F32x8::splat(arena.end));
-    let centers = F32x8::new([0.5, 1.5, 2.5, 3.5, 4.5, 5.5, 6.5, 7.5]);
-    for (eight, depths) in row.chunks_mut(8).enumerate() {
-        let x = centers + F32x8::splat((8 * eight) as f32);
-        let (origin, direction) = arena.raster.line(x, F32x8::splat(y as f32 + 0.5));
+/// A picture to be traced in packets of some width.
+struct TracedPackets<'a, 'p> {
+    arena: &'a Arena<'p>,
+    depths: &'a mut [f32],
+}
+
+impl Work for TracedPackets<'_, '_> {
+    type Output = ();
+
+    fn run<T: Lanes>(self, token: T::Token) {
+        let Self { arena, depths } = self;
+        let width = arena.raster.width() as usize;
+        in_bands(
+            depths,
+            width,
+            || (),
+            |(), y, row| {
+                T::vectorize(
+                    token,
+                    #[inline(always)]
+                    || traced_packets::<T>(arena, token, y, row),
+                );
+            },
+        );
+    }
+}
+
+/// The abscissas of the centres of the first pixels of a row.
+const CENTERS: [f32; MOST_LANES] = [0.5, 1.5, 2.5, 3.5, 4.5, 5.5, 6.5, 7.5, 8.5, 9.5, 10.5, 11.5, 12.5, 13.5, 14.5, 15.5];
+
+#[inline(always)]
+fn traced_packets<T: Lanes>(arena: &Arena<'_>, token: T::Token, y: u32, row: &mut [f32]) {
+    let (zero, infinity) = (T::splat(token, 0.0), T::splat(token, f32::INFINITY));
+    let (centers, end) = (T::load(token, &CENTERS), T::splat(token, arena.end));
+    let mut left = 0;
+    for depths in row.chunks_mut(T::LANES) {
+        let x = centers + T::splat(token, left as f32);
+        let (origin, direction) = arena.raster.line(x, T::splat(token, y as f32 + 0.5));
         let traced = Packet::from_lanes(origin, direction, zero, end).trace(&arena.tracer, &arena.program);
-        let shown = F32x8::select(traced.hit, traced.t, F32x8::INFINITY).to_array();
-        depths.copy_from_slice(&shown[..depths.len()]);
+        T::select(traced.hit, traced.t, infinity).store(depths);
+        left += T::LANES;
     }
 }
 
@@ -123,6 +160,7 @@ mod tests {
     use crate::frame::Frame;
     use anyhow::Result;
     use gsdf_demo::scenes;
+    use gsdf_simd::Level;
 
     #[test]
     fn rays_and_packets_show_the_same_picture_bit_for_bit() -> Result<()> {
@@ -130,12 +168,15 @@ mod tests {
             // A width that is no multiple of eight, and a last band that is not full.
             let arena = Arena::new(&scene, 37)?.relaxed(1.2);
             let (mut packets, mut rays) = (Frame::new(arena.pixels()), Frame::new(arena.pixels()));
-            Contender::ClosedPackets.render(&arena, &mut packets);
             Contender::ClosedRays.render(&arena, &mut rays);
-            Contender::TracedPackets.render(&arena, &mut packets);
             Contender::TracedRays.render(&arena, &mut rays);
-            assert_eq!(packets.pixels, rays.pixels, "{}", arena.name);
-            assert_eq!(packets.depths, rays.depths, "{}", arena.name);
+            for level in Level::available() {
+                let arena = arena.at_level(level);
+                Contender::ClosedPackets.render(&arena, &mut packets);
+                Contender::TracedPackets.render(&arena, &mut packets);
+                assert_eq!(packets.pixels, rays.pixels, "{}, {level}", arena.name);
+                assert_eq!(packets.depths, rays.depths, "{}, {level}", arena.name);
+            }
         }
         Ok(())
     }

@@ -5,6 +5,7 @@ use crate::render::{Picture, render, steps};
 use crate::scenes::{self, Scene};
 use crate::sheet::sheet;
 use anyhow::{Context, Result};
+use gsdf_simd::Level;
 use indicatif::{ProgressBar, ProgressStyle};
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use std::path::{Path, PathBuf};
@@ -23,6 +24,8 @@ pub struct Gallery {
     pub sheet: Option<PathBuf>,
     /// The number of threads; `None` for as many as there are cores.
     pub threads: Option<usize>,
+    /// The level at which primary rays are cast.
+    pub level: Level,
 }
 
 impl Gallery {
@@ -53,7 +56,7 @@ impl Gallery {
                 scenes::by_name(&name).with_context(|| format!("there is no scene {name}: there are {}", scenes::names().join(", ")))?;
             bar.set_message(scene.title);
             let begin = Instant::now();
-            let picture = pool.install(|| render(&scene, self.size, || bar.inc(1)))?;
+            let picture = pool.install(|| render(&scene, self.size, self.level, || bar.inc(1)))?;
             let path = self
                 .directory
                 .as_ref()
@@ -87,7 +90,7 @@ impl Gallery {
     /// What the numbers of the table mean, and its head.
     fn header(&self, pool: &ThreadPool) -> String {
         format!(
-            "{size} x {size} pixels, threads: {threads}. Packets of eight f32 rays, every ray against every leaf.\n\
+            "{size} x {size} pixels, threads: {threads}, level: {level}. Packets of {lanes} f32 rays, every ray against every leaf.\n\
              ns/pixel: casting one ray per pixel, with normal and leaf but no light, from the first pixel to the last on all threads; the\n\
              least of the repeats that fit into 0.2 s. thread: the same times the threads, what a pixel costs one of them.\n\
              sweeps: walks over the program per ray, on average and at most. seconds: the whole picture, with light and smooth edges.\n\
@@ -103,6 +106,8 @@ impl Gallery {
             if self.directory.is_some() { "file" } else { "" },
             size = self.size,
             threads = pool.current_num_threads(),
+            level = self.level,
+            lanes = self.level.lanes(),
         )
         .trim_end()
         .to_owned()

@@ -7,6 +7,7 @@ use gsdf_demo::gallery::Gallery;
 use gsdf_demo::paper::command::Paper;
 use gsdf_demo::scenes;
 use gsdf_demo::shapes::Shapes;
+use gsdf_simd::Level;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -55,6 +56,19 @@ struct Options {
     /// Threads to render on [default: one per core]
     #[arg(long, global = true, value_name = "N", value_parser = value_parser!(u16).range(1..=1024))]
     threads: Option<u16>,
+    /// Vectors to cast primary rays in: portable, avx2 or avx512, as far as this machine has them [default: `GSDF_LEVEL`, or the widest]
+    #[arg(long, global = true, value_name = "NAME")]
+    level: Option<Level>,
+}
+
+impl Options {
+    /// The level that is asked for, here or in the environment.
+    fn level(&self) -> Result<Level, Error> {
+        match self.level {
+            Some(level) => Ok(level),
+            None => Level::chosen().map_err(|error| CommandLine::command().error(ErrorKind::InvalidValue, error)),
+        }
+    }
 }
 
 /// Where pictures and sheet lie if nothing else is said.
@@ -77,6 +91,7 @@ impl TryFrom<CommandLine> for Job {
     fn try_from(line: CommandLine) -> Result<Self, Error> {
         let options = line.options;
         let threads = options.threads.map(usize::from);
+        let level = options.level();
         let in_gallery = |name| Path::new(DIRECTORY).join(name);
         let refuse = |kind, message: &str| Err(CommandLine::command().error(kind, message));
         let (directory, sheet) = match line.command.unwrap_or(Command::Gallery) {
@@ -96,11 +111,18 @@ impl TryFrom<CommandLine> for Job {
                     sheet: options.out.unwrap_or_else(|| in_gallery(SHAPES)),
                     each,
                     threads,
+                    level: level?,
                 }));
             }
             Command::Paper => {
                 if !options.scene.is_empty() {
                     return refuse(ErrorKind::ArgumentConflict, "the paper has shapes of its own: it takes no --scene");
+                }
+                if options.level.is_some() {
+                    return refuse(
+                        ErrorKind::ArgumentConflict,
+                        "the paper's rays are cast one by one: it takes no --level",
+                    );
                 }
                 let size = options.size.unwrap_or(256);
                 if !Paper::SIZES.contains(&size) {
@@ -124,6 +146,7 @@ impl TryFrom<CommandLine> for Job {
             directory,
             sheet,
             threads,
+            level: level?,
         }))
     }
 }
@@ -152,6 +175,7 @@ mod tests {
     use clap::{CommandFactory, Parser};
     use gsdf_demo::gallery::Gallery;
     use gsdf_demo::scenes;
+    use gsdf_simd::Level;
 
     #[test]
     fn the_command_line_is_sound() {
@@ -205,7 +229,12 @@ mod tests {
 
     #[test]
     fn what_the_paper_does_not_take_is_refused() {
-        for arguments in [["paper", "--scene", "s1"], ["paper", "--size", "191"], ["paper", "--size", "1025"]] {
+        for arguments in [
+            ["paper", "--scene", "s1"],
+            ["paper", "--level", "portable"],
+            ["paper", "--size", "191"],
+            ["paper", "--size", "1025"],
+        ] {
             let Err(error) = job(&arguments) else {
                 panic!("{arguments:?} is taken")
             };
@@ -238,6 +267,18 @@ mod tests {
         let sheet = gallery(&["sheet", "--out", "all.png"]);
         assert_eq!((sheet.directory, sheet.sheet), (None, Some("all.png".into())));
         assert_eq!(gallery(&["sheet"]).sheet, Some("gallery/sheet.png".into()));
+    }
+
+    #[test]
+    fn rays_are_cast_at_the_level_that_is_named() {
+        for level in Level::available() {
+            assert_eq!(gallery(&["--level", level.name()]).level, level);
+        }
+        let Err(error) = job(&["--level", "mmx"]) else {
+            panic!("no machine has it")
+        };
+        let message = error.to_string();
+        assert!(Level::available().all(|level| message.contains(level.name())), "{message}");
     }
 
     #[test]

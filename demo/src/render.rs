@@ -10,7 +10,7 @@ use crate::shade::{Sample, Shader};
 use anyhow::{Context, Result};
 use glam::Vec3;
 use gsdf_nostd::{March, Program, Raster, Span};
-use gsdf_simd::{F32x8, Image, MOST_LANES, Packet, scratch};
+use gsdf_simd::{F32x8, Image, Level, MOST_LANES, Packet, scratch};
 use image::RgbImage;
 use rayon::prelude::*;
 use std::time::{Duration, Instant};
@@ -69,15 +69,15 @@ pub fn steps(size: u32) -> u64 {
     2 * u64::from(size)
 }
 
-/// Renders a scene as a square of `size` by `size` pixels on the threads of the current pool, and reports each finished step.
+/// Renders a scene as a square of `size` by `size` pixels on the threads of the current pool, its primary rays at a level, and reports each finished step.
 ///
 /// # Errors
 /// Where the scene is not a program.
-pub fn render(scene: &Scene, size: u32, step_done: impl Fn() + Sync) -> Result<Picture> {
+pub fn render(scene: &Scene, size: u32, level: Level, step_done: impl Fn() + Sync) -> Result<Picture> {
     let program = scene.program().with_context(|| format!("scene {}", scene.name))?;
     let raster = scene.camera.raster(size, size);
     let mut frame = Frame::new(size, size);
-    let cost = cast(program, raster, &mut frame);
+    let cost = cast(program, raster, level, &mut frame);
 
     let painter = || Painter::new(scene, program, raster);
     let bytes_of_rows: Vec<_> = (0..size)
@@ -113,8 +113,8 @@ pub fn render(scene: &Scene, size: u32, step_done: impl Fn() + Sync) -> Result<P
 }
 
 /// Casts the primary rays, again and again while that takes no time, and tells the least it took.
-fn cast(program: Program<'_>, raster: Raster, frame: &mut Frame) -> Cost {
-    let image = Image::new(program, raster);
+fn cast(program: Program<'_>, raster: Raster, level: Level, frame: &mut Frame) -> Cost {
+    let image = Image::new(program, raster).at_level(level);
     let (sweeps, most_sweeps) = count_sweeps(program, raster);
     let begin = Instant::now();
     let mut cost = Cost {
@@ -252,9 +252,10 @@ mod tests {
     use super::{Cost, render};
     use crate::scenes::{self, Scene};
     use anyhow::Result;
+    use gsdf_simd::Level;
 
     fn cost(scene: &Scene, size: u32) -> Result<Cost> {
-        Ok(render(scene, size, || ())?.cost)
+        Ok(render(scene, size, Level::best(), || ())?.cost)
     }
 
     #[test]
@@ -282,27 +283,30 @@ mod tests {
     }
 
     #[test]
-    fn the_number_of_threads_changes_no_pixel() -> Result<()> {
-        let of_threads = |scene: &Scene, threads| {
+    fn neither_threads_nor_level_change_a_pixel() -> Result<()> {
+        let of_threads = |scene: &Scene, threads, level| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build()?;
-            anyhow::Ok(pool.install(|| render(scene, 40, || ()))?.image)
+            anyhow::Ok(pool.install(|| render(scene, 40, level, || ()))?.image)
         };
         for scene in [scenes::snowcone(), scenes::planetary()] {
-            assert_eq!(of_threads(&scene, 1)?, of_threads(&scene, 3)?);
+            let image = of_threads(&scene, 1, Level::PORTABLE)?;
+            for level in Level::available() {
+                assert_eq!(of_threads(&scene, 3, level)?, image, "{}, {level}", scene.name);
+            }
         }
         Ok(())
     }
 
     #[test]
     fn a_picture_of_one_pixel_is_a_picture() -> Result<()> {
-        let picture = render(&scenes::s1(), 1, || ())?;
+        let picture = render(&scenes::s1(), 1, Level::best(), || ())?;
         assert_eq!((picture.image.dimensions(), picture.cost.hits), ((1, 1), 1));
         Ok(())
     }
 
     #[test]
     fn edges_are_a_small_part_of_a_picture_and_soft() -> Result<()> {
-        let picture = render(&scenes::s2(), 128, || ())?;
+        let picture = render(&scenes::s2(), 128, Level::best(), || ())?;
         assert!((100..128 * 128 / 3).contains(&picture.smoothed), "{}", picture.smoothed);
         Ok(())
     }

@@ -53,6 +53,9 @@ pub trait Real: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Se
     const LANES: usize;
     /// Whether formulas go out of their way so that nothing large cancels; only [`Plain`](crate::Plain) does without.
     const ROBUST: bool = true;
+    /// Whether formulas have to become part of whatever asks for them, because only that is compiled for the instructions
+    /// that the arithmetic is made of. Others may share one copy of a formula, so that flash stays small.
+    const INLINED: bool = false;
 
     /// The arithmetic of one lane: `f32` for `f32` and its packets, `f64` for `f64`.
     type Scalar: Lane;

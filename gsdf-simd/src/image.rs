@@ -4,7 +4,7 @@ use crate::lanes::{LaneMask, Lanes, MOST_LANES};
 use crate::level::{Level, Work};
 use crate::packet::{Hits, Packet};
 use core::ops::Range;
-use gsdf_nostd::{Anywhere, Program, Projection, Raster, SeenFrom, Solid, Span, V3};
+use gsdf_nostd::{Anywhere, Footing, Program, Projection, Raster, SeenFrom, Solid, Span, V3};
 use rayon::prelude::*;
 
 /// How many rows a thread takes at a time.
@@ -130,11 +130,11 @@ impl<'a, L: Solid + Sync> Image<'a, L> {
 
     /// Renders rows of pixels, with scratch memory for the spans of one packet.
     #[inline(always)]
-    fn render_rows<T: Lanes, B: Band>(
+    fn render_rows<T: Lanes, F: Footing<L, T>, B: Band>(
         &self,
         token: T::Token,
         rows: Range<u32>,
-        seen: Option<&[L::Seen<f32>]>,
+        footing: F,
         spans: &mut [Span<T>],
         band: &mut B,
     ) -> Tally {
@@ -145,10 +145,7 @@ impl<'a, L: Solid + Sync> Image<'a, L> {
             let mut x = 0;
             while x < width {
                 let packet = Packet::through(&self.raster, places + T::splat(token, x as f32), T::splat(token, y as f32 + 0.5));
-                let hits = match seen {
-                    Some(seen) => packet.cast_in(&self.program, SeenFrom(seen), spans),
-                    None => packet.cast_in(&self.program, Anywhere, spans),
-                };
+                let hits = packet.cast_in(&self.program, footing, spans);
                 let count = (width - x).min(T::LANES as u32);
                 band.put(x, y - rows.start, count as usize, &hits);
                 tally = tally.joined(Tally {
@@ -191,11 +188,18 @@ where
                 || vec![Span::empty_like(T::splat(token, 0.0)); image.program.leaves()],
                 |spans, (mut band, top)| {
                     let rows = top..(top + BAND_ROWS).min(height);
-                    T::vectorize(
-                        token,
-                        #[inline(always)]
-                        || image.render_rows(token, rows, seen.as_deref(), spans, &mut band),
-                    )
+                    match &seen {
+                        Some(seen) => T::vectorize(
+                            token,
+                            #[inline(always)]
+                            || image.render_rows(token, rows, SeenFrom(seen), spans, &mut band),
+                        ),
+                        None => T::vectorize(
+                            token,
+                            #[inline(always)]
+                            || image.render_rows(token, rows, Anywhere, spans, &mut band),
+                        ),
+                    }
                 },
             )
             .reduce(Tally::default, Tally::joined)

@@ -1,10 +1,10 @@
-//! The reference scenes at full size have these bits, in every arithmetic and on any number of threads, in default and
-//! native builds, for ever.
+//! The reference scenes at full size have these bits, in every arithmetic, at every level and on any number of threads, in
+//! default and native builds, for ever.
 //!
 //! A hash that changes on purpose is a change of results for every user: say so in the commit that changes it.
 
 use gsdf_demo::scenes::{self, Scene};
-use gsdf_simd::{Image, Pixel};
+use gsdf_simd::{Image, Level, Pixel};
 use gsdf_tests::conformance::contracted::Contracted;
 use gsdf_tests::golden::{hash, scalar_picture, staged_picture};
 use rayon::ThreadPoolBuilder;
@@ -22,9 +22,9 @@ fn scalar(scene: &Scene) -> Vec<Pixel> {
 }
 
 /// Every packet through the whole program, brute force.
-fn packets(scene: &Scene, threads: usize) -> Vec<Pixel> {
+fn packets(scene: &Scene, level: Level, threads: usize) -> Vec<Pixel> {
     let mut pixels = vec![Pixel::NOTHING; (SIZE * SIZE) as usize];
-    let image = Image::new(scene.program().unwrap(), scene.camera.raster(SIZE, SIZE));
+    let image = Image::new(scene.program().unwrap(), scene.camera.raster(SIZE, SIZE)).at_level(level);
     let pool = ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
     pool.install(|| image.render(&mut pixels[..]));
     pixels
@@ -48,15 +48,17 @@ macro_rules! golden {
             }
 
             #[test]
-            fn packets_on_one_thread() {
+            fn packets_at_every_level() {
                 let scene = $scene();
-                check("packets, 1 thread", &scene, &packets(&scene, 1), $golden);
+                for level in Level::available() {
+                    check(&format!("packets at level {level}"), &scene, &packets(&scene, level, 1), $golden);
+                }
             }
 
             #[test]
             fn packets_on_two_threads() {
                 let scene = $scene();
-                check("packets, 2 threads", &scene, &packets(&scene, 2), $golden);
+                check("packets, 2 threads", &scene, &packets(&scene, Level::best(), 2), $golden);
             }
         }
     )+};

@@ -1,10 +1,10 @@
-//! Whole images against one scalar query per pixel, bit for bit: every size, layout, camera and number of threads.
+//! Whole images against one scalar query per pixel, bit for bit: every size, layout, camera, level and number of threads.
 
 use core::slice::ChunksMut;
 use glam::{Mat3, Vec3, vec3};
 use gsdf_demo::scenes;
 use gsdf_nostd::{Camera, Csg, Leaf, Node, Program, Raster, Span, Transform};
-use gsdf_simd::{Band, Canvas, F32x8, Hits, Image, Mask8, Packet, Pixel, Planes, Tally};
+use gsdf_simd::{Band, Canvas, F32x8, Hits, Image, LaneMask, Lanes, Level, Mask8, Packet, Pixel, Planes, Tally};
 use rayon::ThreadPoolBuilder;
 
 const SIZES: [(u32, u32); 7] = [(1, 1), (7, 3), (8, 8), (9, 17), (33, 20), (3, 50), (64, 1)];
@@ -30,8 +30,8 @@ fn nodes() -> Vec<Node> {
     part.nodes().iter().copied().chain(posed).chain([Node::Union]).collect()
 }
 
-/// A program and every camera's picture of it in every size.
-fn for_pictures(check: impl Fn(&Program<'_>, &Raster)) {
+/// A program and every camera's picture of it in every size, at every level.
+fn for_pictures(check: impl Fn(&Program<'_>, &Raster, Level)) {
     let nodes = nodes();
     let turn = Mat3::from_axis_angle(vec3(0.6, 0.0, 0.8), 0.7);
     let poses = [Transform::affine(turn * 0.5, vec3(0.2, 0.9, 0.1)).unwrap()];
@@ -40,7 +40,9 @@ fn for_pictures(check: impl Fn(&Program<'_>, &Raster)) {
         .iter()
         .flat_map(|camera| SIZES.map(|(width, height)| camera.raster(width, height)))
     {
-        check(&program, &raster);
+        for level in Level::available() {
+            check(&program, &raster, level);
+        }
     }
 }
 
@@ -80,7 +82,7 @@ fn on_threads<R: Send>(threads: usize, render: impl FnOnce() -> R + Send) -> R {
 
 #[test]
 fn records_are_the_scalar_pixels_on_any_number_of_threads() {
-    for_pictures(|program, raster| {
+    for_pictures(|program, raster, level| {
         let expected = scalar(program, raster);
         let hits = expected.iter().filter(|pixel| pixel.leaf != Pixel::NO_LEAF).count();
         assert!(
@@ -95,11 +97,14 @@ fn records_are_the_scalar_pixels_on_any_number_of_threads() {
                 };
                 expected.len()
             ];
-            let tally = on_threads(threads, || Image::new(*program, *raster).render(&mut pixels[..]));
+            let tally = on_threads(threads, || Image::new(*program, *raster).at_level(level).render(&mut pixels[..]));
             assert_same(&pixels, &expected, raster);
             assert_eq!(
                 (tally.hits, tally.packets),
-                (hits as u64, u64::from(raster.width().div_ceil(8) * raster.height()))
+                (
+                    hits as u64,
+                    u64::from(raster.width().div_ceil(level.lanes() as u32) * raster.height())
+                )
             );
             assert!(u64::from(tally.most_sweeps) <= tally.sweeps && tally.most_sweeps as usize <= program.max_sweeps());
         }
@@ -113,7 +118,7 @@ fn plane(raster: &Raster, stride: usize) -> Vec<f32> {
 
 #[test]
 fn planes_are_the_same_pixels_and_nothing_between_rows_is_touched() {
-    for_pictures(|program, raster| {
+    for_pictures(|program, raster, level| {
         let expected = scalar(program, raster);
         let width = raster.width() as usize;
         for (stride, threads) in [(width, 1), (width + 1, 2), (width + 13, 3)] {
@@ -126,7 +131,7 @@ fn planes_are_the_same_pixels_and_nothing_between_rows_is_touched() {
                 leaf: Some(&mut leaf),
                 stride,
             };
-            on_threads(threads, || Image::new(*program, *raster).render(&mut planes));
+            on_threads(threads, || Image::new(*program, *raster).at_level(level).render(&mut planes));
             for row in 0..raster.height() as usize {
                 let place = |x: usize| row * stride + x;
                 let pixel = |column: usize| Pixel {
@@ -151,10 +156,10 @@ fn planes_are_the_same_pixels_and_nothing_between_rows_is_touched() {
 
 #[test]
 fn planes_that_are_not_wanted_are_left_out() {
-    for_pictures(|program, raster| {
+    for_pictures(|program, raster, level| {
         let expected = scalar(program, raster);
         let stride = raster.width() as usize;
-        let image = Image::new(*program, *raster);
+        let image = Image::new(*program, *raster).at_level(level);
         let mut distance = plane(raster, stride);
         let (normal, leaf) = (None, None);
         image.render(&mut Planes {
@@ -231,11 +236,11 @@ impl Band for ScreenBand<'_> {
 
 #[test]
 fn a_canvas_of_ones_own_gets_every_pixel_once() {
-    for_pictures(|program, raster| {
+    for_pictures(|program, raster, level| {
         let expected = scalar(program, raster);
         for threads in [1, 3] {
             let mut screen = Screen(vec![99; Screen::STRIDE * raster.height() as usize]);
-            on_threads(threads, || Image::new(*program, *raster).render(&mut screen));
+            on_threads(threads, || Image::new(*program, *raster).at_level(level).render(&mut screen));
             for (row, bytes) in screen.0.chunks(Screen::STRIDE).enumerate() {
                 let width = raster.width() as usize;
                 let shown = expected[row * width..][..width]
@@ -278,11 +283,21 @@ fn no_canvas_is_written_beyond_image_or_end() {
     }
 }
 
+/// An image is rendered at the widest level, unless told otherwise; it says which.
+#[test]
+fn the_level_can_be_read_and_forced() {
+    let image = || Image::new(scenes::PART.program(), cameras()[0].raster(8, 8));
+    assert_eq!(image().level(), Level::best());
+    for level in Level::available() {
+        assert_eq!(image().at_level(level).level(), level);
+    }
+}
+
 /// Everything a thread may want to take along or share.
 #[test]
 fn public_types_are_send_and_sync() {
     fn check<T: Send + Sync>() {}
-    check::<(F32x8, Mask8, Packet, Hits, Pixel, Tally)>();
+    check::<(F32x8, Mask8, Packet, Hits, Pixel, Tally, Level)>();
     check::<(
         Image<'_, Leaf>,
         Planes<'_>,

@@ -1,11 +1,13 @@
-//! Packets of eight against eight scalar queries, bit for bit: on random programs, the reference scenes and a user's
+//! Packets against scalar queries, on every level and bit for bit: on random programs, the reference scenes and a user's
 //! own leaf type, with lanes that hit, miss, start inside, have a range, or hold no ray at all, side by side.
 
 use core::fmt::Debug;
 use glam::{Vec3, vec3};
 use gsdf_demo::scenes;
-use gsdf_nostd::{Camera, Field, HalfSpace, Node, Program, ProgramError, Raster, Ray, Solid, Sphere, SphereTracer, V3, csg, leaf_set};
-use gsdf_simd::{F32x8, Packet, scratch};
+use gsdf_nostd::{
+    Camera, Field, HalfSpace, Hit, Node, Program, ProgramError, Raster, Ray, Solid, Span, Sphere, SphereTracer, V3, csg, leaf_set,
+};
+use gsdf_simd::{F32x8, LaneMask, Lanes, Level, Packet, Work, scratch};
 use gsdf_tests::conformance::octahedron::Octahedron;
 use gsdf_tests::conformance::packet::{Asked, Composed, Count, bits, check, packet, scalar_hit};
 use gsdf_tests::conformance::specimen::wild;
@@ -152,6 +154,33 @@ fn lanes_do_not_see_each_other() {
     }
 }
 
+struct Tracing<'a> {
+    tracer: &'a SphereTracer,
+    program: &'a Program<'a>,
+    asked: &'a [Asked; 8],
+}
+
+impl Work for Tracing<'_> {
+    /// Of each lane how many steps the packet took, the parameter, whether it hit, and whether it is undecided.
+    type Output = Vec<(u32, (f32, bool, bool))>;
+
+    fn run<T: Lanes>(self, token: T::Token) -> Self::Output {
+        let packet = packet::<T>(token, self.asked);
+        let traced = T::vectorize(
+            token,
+            #[inline(always)]
+            || packet.trace(self.tracer, self.program),
+        );
+        let is = |mask: T::Mask, lane: usize| mask.to_bits() >> lane & 1 == 1;
+        (0..T::LANES)
+            .map(|lane| {
+                let t = traced.t.lane(lane).unwrap();
+                (traced.steps, (t, is(traced.hit, lane), is(traced.undecided, lane)))
+            })
+            .collect()
+    }
+}
+
 /// Sphere tracing goes on in some lanes after others have arrived; that changes none of them.
 #[test]
 fn sphere_tracing_is_the_same_in_packets() {
@@ -166,31 +195,34 @@ fn sphere_tracing_is_the_same_in_packets() {
             relaxation: rng.random_range(1.0..1.9),
         };
         let asked: [Asked; 8] = core::array::from_fn(|_| composed.aimed(&mut rng).varied(&mut rng, &program));
-        let traced = packet(&asked).trace(&tracer, &program);
-        for (lane, asked) in asked.iter().enumerate() {
-            let found = (
-                traced.t.to_array()[lane],
-                traced.hit.to_bits() >> lane & 1 == 1,
-                traced.undecided.to_bits() >> lane & 1 == 1,
-            );
-            let Some(ray) = asked.ray() else {
-                assert_eq!(found, (f32::INFINITY, false, false), "lane {lane}: {asked:?}");
-                continue;
-            };
-            let alone = tracer.cast(&program, &ray);
-            assert_eq!(
-                (found.0.to_bits(), found.1, found.2),
-                (alone.t.to_bits(), alone.hit, alone.undecided),
-                "seed {seed}, lane {lane}: {asked:?}"
-            );
-            assert!(
-                alone.steps <= traced.steps,
-                "the slowest lane took {} steps, this one {}",
-                traced.steps,
-                alone.steps
-            );
-            hits += usize::from(found.1);
-            undecided += usize::from(found.2);
+        for level in Level::available() {
+            let traced = level.run(Tracing {
+                tracer: &tracer,
+                program: &program,
+                asked: &asked,
+            });
+            for (lane, &(steps, found)) in traced.iter().enumerate() {
+                let asked = &asked[lane % 8];
+                let Some(ray) = asked.ray() else {
+                    assert_eq!(found, (f32::INFINITY, false, false), "{level}, lane {lane}: {asked:?}");
+                    continue;
+                };
+                let alone = tracer.cast(&program, &ray);
+                assert_eq!(
+                    (found.0.to_bits(), found.1, found.2),
+                    (alone.t.to_bits(), alone.hit, alone.undecided),
+                    "seed {seed}, {level}, lane {lane}: {asked:?}"
+                );
+                assert!(
+                    alone.steps <= steps,
+                    "the slowest lane took {steps} steps, this one {}",
+                    alone.steps
+                );
+                if level == Level::PORTABLE {
+                    hits += usize::from(found.1);
+                    undecided += usize::from(found.2);
+                }
+            }
         }
     }
     assert!(hits > 1000 && undecided > 500, "{hits} hits, {undecided} undecided");
@@ -214,7 +246,41 @@ fn standard_distances_are_the_same_in_packets() {
 
 csg! { const BALL = Sphere::new(Vec3::ZERO, 1.0) }
 
-/// From none to more than eight rays: those there are, in their order, and no more.
+struct Cast<'r>(&'r [Ray]);
+
+impl Work for Cast<'_> {
+    /// Which lanes hold a ray, and what that hits.
+    type Output = (u32, Vec<Option<Hit>>);
+
+    fn run<T: Lanes>(self, token: T::Token) -> Self::Output {
+        let packet = Packet::<T>::of(token, self.0);
+        let mut spans = [Span::empty_like(T::splat(token, 0.0))];
+        let hits = packet.cast(&BALL.program(), &mut spans).unwrap();
+        let rays = self.0.iter().enumerate();
+        (packet.valid().to_bits(), rays.map(|(lane, ray)| hits.lane(lane, ray)).collect())
+    }
+}
+
+/// From none to more rays than lanes: those there are, in their order, and no more.
+#[test]
+fn packets_hold_the_first_rays() {
+    let rays: Vec<Ray> = (0..18_u8)
+        .map(|number| Ray::new(vec3(0.09 * f32::from(number), 0.0, 5.0), Vec3::NEG_Z).unwrap())
+        .collect();
+    for level in Level::available() {
+        for count in 0..=rays.len() {
+            let (valid, hits) = level.run(Cast(&rays[..count]));
+            let held = count.min(level.lanes());
+            assert_eq!((valid.count_ones() as usize, valid.trailing_ones() as usize), (held, held));
+            for (lane, (ray, hit)) in rays.iter().zip(hits).enumerate() {
+                let expected = if lane < held { BALL.cast(ray) } else { None };
+                assert_eq!(hit, expected, "{level}, lane {lane} of {count}");
+            }
+        }
+    }
+}
+
+/// The plain packet is that of eight.
 #[test]
 fn packets_hold_the_first_eight_rays() {
     let rays: Vec<Ray> = (0..10_u8)

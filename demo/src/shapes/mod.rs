@@ -11,6 +11,7 @@ use crate::sheet::{halved, side_by_side};
 use anyhow::{Context, Result};
 use base64::prelude::{BASE64_STANDARD, Engine};
 use caption::captioned;
+use gsdf_simd::Level;
 use image::{RgbImage, imageops};
 use rayon::ThreadPoolBuilder;
 use std::fs;
@@ -30,6 +31,8 @@ pub struct Shapes {
     pub each: Option<PathBuf>,
     /// The number of threads; `None` for as many as there are cores.
     pub threads: Option<usize>,
+    /// The level at which primary rays are cast.
+    pub level: Level,
 }
 
 impl Shapes {
@@ -49,10 +52,10 @@ impl Shapes {
         let exhibits = all();
         let mut tiles = Vec::new();
         for exhibit in &exhibits {
-            let tile = pool.install(|| picture(exhibit, self.size))?;
+            let tile = pool.install(|| picture(exhibit, self.size, self.level))?;
             tiles.push(captioned(&tile, exhibit.name));
             if let Some(directory) = &self.each {
-                let small = few_colours(&pool.install(|| picture(exhibit, 2 * IN_DOCUMENTATION))?);
+                let small = few_colours(&pool.install(|| picture(exhibit, 2 * IN_DOCUMENTATION, self.level))?);
                 let path = directory.join(exhibit.file_name()).with_extension("png");
                 write_png(&small, &path)?;
                 let png = fs::read(&path).with_context(|| format!("cannot read {}", path.display()))?;
@@ -61,7 +64,12 @@ impl Shapes {
             }
         }
         write_png(&side_by_side(&tiles), &self.sheet)?;
-        say(&format!("{} shapes on one sheet: {}", exhibits.len(), self.sheet.display()))
+        say(&format!(
+            "{} shapes on one sheet, cast at level {}: {}",
+            exhibits.len(),
+            self.level,
+            self.sheet.display()
+        ))
     }
 }
 
@@ -69,8 +77,8 @@ impl Shapes {
 ///
 /// # Errors
 /// Where the shape is not a program.
-pub fn picture(exhibit: &Exhibit, size: u32) -> Result<RgbImage> {
-    let square = render(&exhibit.scene()?, size, || ())?.image;
+pub fn picture(exhibit: &Exhibit, size: u32, level: Level) -> Result<RgbImage> {
+    let square = render(&exhibit.scene()?, size, level, || ())?.image;
     Ok(halved(&imageops::crop_imm(&square, 0, size / 8, size, size - size / 4).to_image()))
 }
 
@@ -98,6 +106,7 @@ mod tests {
     use super::{IN_DOCUMENTATION, all, few_colours, markdown, picture};
     use anyhow::{Context, Result};
     use gsdf_nostd::Span;
+    use gsdf_simd::Level;
     use std::fs;
     use std::path::Path;
 
@@ -143,7 +152,7 @@ mod tests {
             let png = fs::read(&path).with_context(|| path.display().to_string())?;
             let kept = image::load_from_memory(&png)?.to_rgb8();
             assert!(
-                kept == few_colours(&picture(&exhibit, 2 * IN_DOCUMENTATION)?),
+                kept == few_colours(&picture(&exhibit, 2 * IN_DOCUMENTATION, Level::best())?),
                 "{name}: not the picture of today"
             );
             let held = fs::read_to_string(path.with_extension("md"))?;

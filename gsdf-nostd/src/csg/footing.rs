@@ -1,6 +1,6 @@
 //! What is known of the place where a line starts.
 
-use crate::leaf::{Ground, Solid, Surface, span_unseen};
+use crate::leaf::{Ground, Solid, Surface, span_unseen, surface_unseen};
 use crate::range::max_norm;
 use crate::ray::Line;
 use crate::real::Real;
@@ -82,7 +82,7 @@ impl<L: Solid, T: Real> Footing<L, T> for SeenFrom<'_, L::Seen<T::Scalar>> {
     fn surface(self, number: u32, solid: &L, line: &Line<T>, _: Option<&Transform>, t: T) -> Surface<T> {
         match self.0.get(number as usize) {
             Some(seen) => solid.surface_lifted(seen, &line.toward, t),
-            None => solid.surface_along(line, t),
+            None => surface_unseen(solid, line, t),
         }
     }
 }

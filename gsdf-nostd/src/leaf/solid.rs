@@ -59,10 +59,10 @@ pub trait Solid: Copy {
     /// [`seen_from`](Solid::seen_from) and [`span`](Solid::span) in one.
     #[inline(always)]
     fn span_along<T: Real>(&self, line: &Line<T>) -> Span<T> {
-        if T::LANES == 1 {
-            span_apart(self, line)
-        } else {
+        if T::INLINED {
             self.span(&self.seen_from(line.origin), &line.toward)
+        } else {
+            span_apart(self, line)
         }
     }
 
@@ -141,21 +141,37 @@ pub trait Solid: Copy {
     }
 }
 
-/// [`Solid::span_along`] as a function of its own: one copy for all that ask with single rays, so that flash stays
-/// small. Lanes are left together where they are, since their instructions may be those of the caller alone.
+/// [`Solid::span_along`] as a function of its own, of which one copy is enough.
 #[inline]
 fn span_apart<T: Real, L: Solid>(solid: &L, line: &Line<T>) -> Span<T> {
     solid.span(&solid.seen_from(line.origin), &line.toward)
 }
 
-/// [`Solid::span_along`] where it is not expected to be asked for: by lanes too as a function of its own.
+/// [`Solid::span_along`] where it is not expected to be asked for, apart in every arithmetic.
 #[inline(always)]
 pub(crate) fn span_unseen<T: Real, L: Solid>(solid: &L, line: &Line<T>) -> Span<T> {
-    if T::LANES == 1 {
-        solid.span_along(line)
-    } else {
+    if T::INLINED {
         span_apart(solid, line)
+    } else {
+        solid.span_along(line)
     }
+}
+
+/// [`Solid::surface_along`] where it is not expected to be asked for: as a function of its own where otherwise all of it
+/// would be inlined.
+#[inline(always)]
+pub(crate) fn surface_unseen<T: Real, L: Solid>(solid: &L, line: &Line<T>, t: T) -> Surface<T> {
+    if T::INLINED {
+        surface_apart(solid, line, t)
+    } else {
+        solid.surface_along(line, t)
+    }
+}
+
+/// [`Solid::surface_along`] as a function of its own.
+#[inline]
+fn surface_apart<T: Real, L: Solid>(solid: &L, line: &Line<T>, t: T) -> Surface<T> {
+    solid.surface(&solid.seen_from(line.origin), &line.toward, t)
 }
 
 /// A point of a surface, as a ray that crosses it there sees it.

@@ -77,6 +77,7 @@ macro_rules! lanes_in_a_register {
 
         impl Real for $number {
             const LANES: usize = $lanes;
+            const INLINED: bool = true;
             type Mask = $mask;
             type Scalar = f32;
 

@@ -1,5 +1,5 @@
-//! Packets of eight rays held to eight scalar queries, whatever the lanes hold: rays that hit, miss, start inside, have
-//! a range, or none at all.
+//! Packets of rays held to scalar queries, on every level the machine has and whatever the lanes hold: rays that hit,
+//! miss, start inside, have a range, or none at all.
 #![allow(
     clippy::unwrap_used,
     clippy::missing_panics_doc,
@@ -14,7 +14,7 @@ use core::fmt::Debug;
 use core::ops::Range;
 use glam::{Mat3, Vec3, vec3};
 use gsdf_nostd::{Hit, Node, Program, Ray, Solid, Span, Transform, V3};
-use gsdf_simd::{F32x8, Packet, scratch};
+use gsdf_simd::{LaneMask, Lanes, Level, MOST_LANES, Packet, Work};
 use rand::RngExt;
 use rand_pcg::Pcg64;
 
@@ -158,10 +158,13 @@ pub fn bits(hit: &Hit) -> [u32; 10] {
     [t, px, py, pz, nx, ny, nz, hit.leaf, hit.face.into(), hit.entering.into()]
 }
 
-/// Eight rays by their numbers.
+/// As many rays as there are lanes, by their numbers: these over and over.
 #[must_use]
-pub fn packet(asked: &[Asked; 8]) -> Packet {
-    let of = |value: &dyn Fn(&Asked) -> f32| F32x8::new(core::array::from_fn(|lane| value(&asked[lane])));
+pub fn packet<T: Lanes>(token: T::Token, asked: &[Asked; 8]) -> Packet<T> {
+    let of = |value: &dyn Fn(&Asked) -> f32| {
+        let lanes: [f32; MOST_LANES] = core::array::from_fn(|lane| value(&asked[lane % 8]));
+        T::load(token, &lanes)
+    };
     Packet::from_lanes(
         V3::new(of(&|a| a.origin.x), of(&|a| a.origin.y), of(&|a| a.origin.z)),
         V3::new(of(&|a| a.direction.x), of(&|a| a.direction.y), of(&|a| a.direction.z)),
@@ -170,54 +173,89 @@ pub fn packet(asked: &[Asked; 8]) -> Packet {
     )
 }
 
-/// Validity, cast and directional distance of eight rays: those of the scalar queries, and nothing in lanes without a
-/// ray.
+/// What one lane of a packet finds.
+#[derive(Clone, Copy, Debug)]
+struct Found {
+    valid: bool,
+    hit: bool,
+    t: f32,
+    /// Where the lane has a ray.
+    whole: Option<Hit>,
+    distance: f32,
+}
+
+/// A program asked for validity, cast and directional distance.
+struct Queries<'a, L> {
+    program: &'a Program<'a, L>,
+    asked: &'a [Asked; 8],
+}
+
+impl<L: Solid> Work for Queries<'_, L> {
+    type Output = Vec<Found>;
+
+    fn run<T: Lanes>(self, token: T::Token) -> Vec<Found> {
+        let Self { program, asked } = self;
+        let packet = packet::<T>(token, asked);
+        let mut spans = vec![Span::empty_like(T::splat(token, 0.0)); program.leaves()];
+        let (hits, distances) = T::vectorize(
+            token,
+            #[inline(always)]
+            || (packet.cast(program, &mut spans).unwrap(), packet.gsdf(program, &mut spans).unwrap()),
+        );
+        let found = |lane: usize| Found {
+            valid: packet.valid().to_bits() >> lane & 1 == 1,
+            hit: hits.hit.to_bits() >> lane & 1 == 1,
+            t: hits.t.lane(lane).unwrap(),
+            whole: asked[lane % 8].ray().and_then(|ray| hits.lane(lane, &ray)),
+            distance: distances.lane(lane).unwrap(),
+        };
+        (0..T::LANES).map(found).collect()
+    }
+}
+
+/// Validity, cast and directional distance of eight rays: on every level those of the scalar queries, and nothing in
+/// lanes without a ray.
 pub fn check<L: Solid + Debug>(program: &Program<'_, L>, asked: &[Asked; 8]) -> Count {
-    let packet = packet(asked);
-    let mut spans = scratch(program.leaves());
-    let hits = packet.cast(program, &mut spans).unwrap();
-    let distances = packet.gsdf(program, &mut spans).unwrap().to_array();
+    let found: Vec<_> = Level::available()
+        .map(|level| (level, level.run(Queries { program, asked })))
+        .collect();
     let mut count = Count {
         lanes: 8,
         ..Count::default()
     };
-    for (lane, asked) in asked.iter().enumerate() {
-        let what = || format!("lane {lane}: {asked:?} in {:?}", program.nodes());
-        assert_eq!(packet.valid().to_bits() >> lane & 1 == 1, asked.ray().is_some(), "{}", what());
-        let is_hit = hits.hit.to_bits() >> lane & 1 == 1;
-        let Some(ray) = asked.ray() else {
-            assert!(
-                !is_hit && hits.t.to_array()[lane] == f32::INFINITY && distances[lane].is_nan(),
-                "{}",
-                what()
-            );
-            count.invalid += 1;
-            continue;
-        };
-        let expected = scalar_hit(program, ray);
-        let found = hits.lane(lane, &ray);
-        assert_eq!(
-            found.as_ref().map(bits),
-            expected.as_ref().map(bits),
-            "{}: {found:?}, not {expected:?}",
-            what()
-        );
-        assert_eq!(found, expected, "{}", what());
-        assert_eq!(is_hit, expected.is_some(), "{}", what());
-        assert_eq!(hits.t.to_array()[lane], expected.map_or(f32::INFINITY, |hit| hit.t), "{}", what());
-
-        let mut spans = vec![Span::EMPTY; program.leaves()];
-        let signed: f32 = program.along(ray, &mut spans).unwrap().gsdf();
-        assert_eq!(
-            distances[lane].to_bits(),
-            signed.to_bits(),
-            "{}: {}, not {signed}",
-            what(),
-            distances[lane]
-        );
-        count.hits += usize::from(is_hit);
-        count.misses += usize::from(!is_hit);
-        count.inside += usize::from(signed < 0.0);
+    for (number, asked) in asked.iter().enumerate() {
+        let ray = asked.ray();
+        let expected = ray.and_then(|ray| scalar_hit(program, ray));
+        let signed = ray.map(|ray| {
+            let mut spans = vec![Span::EMPTY; program.leaves()];
+            program.along(ray, &mut spans).unwrap().gsdf::<f32>()
+        });
+        for (level, lanes) in &found {
+            for (lane, found) in lanes.iter().enumerate().filter(|(lane, _)| lane % 8 == number) {
+                let what = || format!("{level}, lane {lane}: {asked:?} in {:?}", program.nodes());
+                assert_eq!(found.valid, ray.is_some(), "{}", what());
+                assert_eq!(found.hit, expected.is_some(), "{}", what());
+                assert_eq!(found.t, expected.map_or(f32::INFINITY, |hit| hit.t), "{}", what());
+                assert_eq!(
+                    found.whole.as_ref().map(bits),
+                    expected.as_ref().map(bits),
+                    "{}: {found:?}, not {expected:?}",
+                    what()
+                );
+                assert_eq!(found.whole, expected, "{}", what());
+                assert_eq!(
+                    (found.distance.is_nan(), found.distance.to_bits()),
+                    signed.map_or((true, found.distance.to_bits()), |signed| (false, signed.to_bits())),
+                    "{}: {}, not {signed:?}",
+                    what(),
+                    found.distance
+                );
+            }
+        }
+        count.hits += usize::from(expected.is_some());
+        count.misses += usize::from(ray.is_some() && expected.is_none());
+        count.invalid += usize::from(ray.is_none());
+        count.inside += usize::from(signed.is_some_and(|signed| signed < 0.0));
     }
     count.mixed = usize::from([count.hits, count.misses, count.invalid, count.inside].iter().all(|&kind| kind > 0));
     count
