@@ -109,7 +109,7 @@ impl Packet {
                 toward: Toward::new(direction.scaled(scale)),
             },
             scale,
-            start: F32x8::select(valid, start / scale, F32x8::INFINITY),
+            start: F32x8::select(valid, start.max(F32x8::splat(f32::MIN_POSITIVE)) / scale, F32x8::INFINITY),
             end: F32x8::select(valid, end, F32x8::NEG_INFINITY),
             valid,
         }
