@@ -29,6 +29,10 @@ pub(crate) const PARALLEL_SPEED: f32 = 1.0 / (1_u128 << 100) as f32;
 /// this: 2^-64.
 pub(crate) const PARALLEL_TILT_SQUARED: f32 = 1.0 / (1_u128 << 64) as f32;
 
+/// The square of a vector that is too short to point anywhere is below this: the least normal number, below which squares
+/// lose their digits.
+pub(crate) const LEAST_SQUARE: f32 = f32::MIN_POSITIVE;
+
 /// The largest magnitude of the largest component of a direction, and the inverse of the smallest: 2^40.
 ///
 /// Parameters along the ray are in units of the direction, and must neither overflow nor lose digits.

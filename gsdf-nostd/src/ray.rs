@@ -100,8 +100,8 @@ impl Ray {
         }
     }
 
-    /// The same ray over another range of its parameter. What happens at `range.start` itself counts as past, what
-    /// happens at `range.end` as not reached.
+    /// The same ray over another range of its parameter. What happens at `range.start` itself counts as past, and so does
+    /// what happens below 2^-126, the least normal number; what happens at `range.end` counts as not reached.
     ///
     /// # Errors
     /// Unless `0 <= range.start < range.end`.
@@ -151,10 +151,22 @@ impl Ray {
         }
     }
 
-    /// The parameter on [`line`](Self::line) that belongs to a parameter of this ray; exact unless it overflows.
+    /// The parameter on [`line`](Self::line) that belongs to a parameter of this ray; exact unless it overflows, or falls below
+    /// the normal numbers.
     #[inline]
     pub fn parameter_on_line<T: Real>(self, t: T) -> T {
-        t / t.splat_like(self.scale)
+        t * t.splat_like(unit_scale(self.scale))
+    }
+
+    /// Where queries start on [`line`](Self::line): at the start of the range, or where the ray's parameter is the least
+    /// normal number, 2^-126, if that is later.
+    ///
+    /// What is nearer than that counts as past. So no crossing is rounded to 0 where its parameter becomes that of the ray,
+    /// and whoever asks again from a crossing on gets the next one.
+    #[inline]
+    pub fn start_on_line<T: Real>(self, like: T) -> T {
+        let start = like.splat_like(self.range.0);
+        self.parameter_on_line(start.max(like.splat_like(f32::MIN_POSITIVE)))
     }
 
     /// The parameter of this ray that belongs to a parameter on [`line`](Self::line); exact unless it overflows to

@@ -1,6 +1,6 @@
 //! What depends on a ray's direction alone.
 
-use crate::range::PARALLEL_SPEED;
+use crate::range::{LEAST_SQUARE, PARALLEL_SPEED};
 use crate::real::Real;
 use crate::vec3::V3;
 
@@ -44,6 +44,16 @@ impl<T: Real> Toward<T> {
             per_component: v,
         }
     }
+
+    /// The unit vector along `outward`; straight against the ray where that is as good as zero, as it is at the centre
+    /// of a sphere that rounding has lost.
+    #[inline(always)]
+    pub(crate) fn unit_normal(&self, outward: V3<T>) -> V3<T> {
+        let square = outward.norm_squared();
+        let known = square.splat_like(LEAST_SQUARE).le(square);
+        let square = T::select(known, square, self.vv);
+        V3::select(known, outward, -self.v).scaled(square.splat_like(1.0) / square.sqrt())
+    }
 }
 
 /// The reciprocal of a ray's speed along a plane's normal, +inf where the ray is parallel to the plane.
@@ -56,4 +66,29 @@ impl<T: Real> Toward<T> {
 pub fn reciprocal_speed<T: Real>(speed: T) -> T {
     let parallel = speed.abs().lt(speed.splat_like(PARALLEL_SPEED));
     speed.splat_like(1.0) / T::select(parallel, speed.splat_like(0.0), speed)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Toward, V3};
+    use glam::{Vec3, vec3};
+
+    #[test]
+    fn normals_are_of_unit_length_whatever_is_left_of_a_vector() {
+        let direction = vec3(1.5, -0.25, 1.0);
+        let toward = Toward::new(V3::<f32>::from(direction));
+        for outward in [
+            Vec3::ZERO,
+            vec3(0.0, 1e-23, -2e-22),
+            vec3(3e-20, 0.0, 1e-21),
+            vec3(1e-19, 2e-19, 0.0),
+            Vec3::X,
+            vec3(1e15, 2e14, -1e15),
+        ] {
+            let normal = Vec3::from(toward.unit_normal(outward.into()));
+            assert!((normal.length() - 1.0).abs() < 3e-7, "{normal} of {outward}");
+            let expected = if outward.length() < 1e-19 { -direction } else { outward };
+            assert!(normal.dot(expected.normalize()) > 0.999_999, "{normal} of {outward}");
+        }
+    }
 }

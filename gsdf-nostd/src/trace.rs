@@ -74,9 +74,8 @@ impl SphereTracer {
 
     /// [`cast`](Self::cast) in the arithmetic of `like`.
     pub fn cast_in<F: Field, T: Lane>(&self, field: &F, ray: &Ray, like: T) -> Traced<T> {
-        let range = ray.range();
-        let start = ray.parameter_on_line(like.splat_like(range.start));
-        let end = ray.parameter_on_line(like.splat_like(range.end));
+        let start = ray.start_on_line(like);
+        let end = ray.parameter_on_line(like.splat_like(ray.range().end));
         let traced = self.trace(field, &ray.line(like), start, end);
         Traced {
             t: ray.parameter_of(traced.t),

@@ -1,5 +1,6 @@
 //! Three numbers of any arithmetic: what [`glam::Vec3`] becomes inside a formula.
 
+use crate::range::LEAST_SQUARE;
 use crate::real::Real;
 use core::ops::{Add, Neg, Sub};
 use glam::Vec3;
@@ -73,14 +74,13 @@ impl<T: Real> V3<T> {
         self.norm_squared().sqrt()
     }
 
-    /// The vector divided by its norm; `otherwise` where the norm is zero.
+    /// The vector divided by its norm; `otherwise` where it is too short to point anywhere.
     #[inline(always)]
     #[must_use]
     pub fn normalized_or(self, otherwise: Self) -> Self {
-        let norm = self.norm();
-        let zero = norm.splat_like(0.0);
-        let unit = self.scaled(norm.splat_like(1.0) / norm);
-        Self::select(zero.lt(norm), unit, otherwise)
+        let square = self.norm_squared();
+        let unit = self.scaled(square.splat_like(1.0) / square.sqrt());
+        Self::select(square.splat_like(LEAST_SQUARE).le(square), unit, otherwise)
     }
 
     /// `yes` where the mask is true, `no` elsewhere.

@@ -111,14 +111,14 @@ impl<T: Lanes> Packet<T> {
         // comparisons of masks.
         let origin = V3::select(valid, origin, V3::splat(start, Vec3::ZERO));
         let direction = V3::select(valid, direction, V3::splat(start, Vec3::X));
-        let (direction, scale) = scaled(direction);
+        let (direction, scale, _) = scaled(direction);
         Self {
             line: Line {
                 origin,
                 toward: Toward::new(direction),
             },
             scale,
-            start: T::select(valid, start / scale, infinity),
+            start: T::select(valid, start.max(start.splat_like(f32::MIN_POSITIVE)) / scale, infinity),
             end: T::select(valid, end, -infinity),
             valid,
         }
@@ -208,11 +208,12 @@ fn largest<T: Lanes>(v: V3<T>) -> T {
     v.x.abs().max(v.y.abs()).max(v.z.abs())
 }
 
-/// A direction scaled, exactly, to a largest component in [1, 2), and by what.
+/// A direction scaled, exactly, to a largest component in [1, 2); by what, and the inverse of that.
 #[inline(always)]
-pub(crate) fn scaled<T: Lanes>(direction: V3<T>) -> (V3<T>, T) {
-    let scale = largest(direction).per_power_of_two_below();
-    (direction.scaled(scale), scale)
+pub(crate) fn scaled<T: Lanes>(direction: V3<T>) -> (V3<T>, T, T) {
+    let length = largest(direction).power_of_two_below();
+    let scale = length.per_power_of_two_below();
+    (direction.scaled(scale), scale, length)
 }
 
 /// Whether every coordinate is within ±`limit`.

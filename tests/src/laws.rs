@@ -1,11 +1,13 @@
 //! Random scenes for the laws: solids of all kinds at rest and in two frames, some of them twice, and rays at them.
 
+use crate::conformance::packet::bits;
 use crate::corpus;
 use crate::poses::{random_affine, random_motion};
 use crate::shape::{KINDS, Shape};
 use crate::trees::{Number, Tree};
-use glam::{Mat3, Vec3};
+use glam::Mat3;
 use gsdf_nostd::{Crossing, Hit, Node, Program, Ray, Span, Transform};
+use gsdf_simd::{Packet, scratch};
 use rand::{Rng, RngExt};
 
 /// Some solids, and an expression over them.
@@ -92,17 +94,23 @@ impl Scene {
         (sight.march::<T>().inside, sight.crossings().collect())
     }
 
-    /// Every hit along the ray, each cast for from the one before.
+    /// Every hit along the ray, each cast for from the one before, alone and in a packet.
     ///
     /// # Panics
-    /// Where the nodes are no program.
+    /// Where the nodes are no program, or a packet finds anything else.
     #[must_use]
     pub fn hits(&self, nodes: &[Node], ray: Ray) -> Vec<Hit> {
         let program = self.program(nodes);
-        let mut scratch = vec![Span::EMPTY; program.leaves()];
+        let (mut scratch, mut lanes) = (vec![Span::EMPTY; program.leaves()], scratch(program.leaves()));
         let mut hits: Vec<Hit> = Vec::new();
         let mut rest = Some(ray);
-        while let Some(hit) = rest.and_then(|rest| program.along(rest, &mut scratch).expect("there is room").cast()) {
+        while let Some(hit) = rest.and_then(|rest| {
+            let alone = program.along(rest, &mut scratch).expect("there is room").cast();
+            let packet = Packet::new(&[rest]).cast(&program, &mut lanes).expect("there is room");
+            let found = packet.lane(0, &rest);
+            assert_eq!(found.as_ref().map(bits), alone.as_ref().map(bits), "along {rest:?}: {nodes:?}");
+            alone
+        }) {
             assert!(hits.last().is_none_or(|last| last.t < hit.t), "{hit:?} after {hits:?}");
             hits.push(hit);
             rest = ray.within(hit.t..ray.range().end).ok();
@@ -119,56 +127,6 @@ impl Scene {
         let program = Program::new(nodes).and_then(|program| program.posed(&self.poses));
         program.expect("trees make programs, and every frame has a pose")
     }
-}
-
-/// The same solid with all its lengths multiplied.
-#[must_use]
-pub fn scaled(shape: &Shape, by: f32) -> Shape {
-    let mut shape = *shape;
-    let (points, lengths): (Vec<&mut Vec3>, Vec<&mut f32>) = match &mut shape {
-        Shape::HalfSpace { point, .. } => (vec![point], vec![]),
-        Shape::Sphere { center, radius } | Shape::Octahedron { center, radius } => (vec![center], vec![radius]),
-        Shape::Cylinder { point, radius, .. } => (vec![point], vec![radius]),
-        Shape::Nappe { apex, radius, height, .. } => (vec![apex], vec![radius, height]),
-        Shape::Cuboid { min, max } => (vec![min, max], vec![]),
-        Shape::CappedCylinder { bottom, top, radius, .. } => (vec![bottom, top], vec![radius]),
-        Shape::Cone { apex, base, radius, .. } => (vec![apex, base], vec![radius]),
-        Shape::CappedCone {
-            bottom,
-            top,
-            bottom_radius,
-            top_radius,
-            ..
-        } => (vec![bottom, top], vec![bottom_radius, top_radius]),
-        Shape::Capsule { a, b, radius } => (vec![a, b], vec![radius]),
-        Shape::HexagonalPrism { bottom, top, apothem } => (vec![bottom], vec![top, apothem]),
-        Shape::TriangularPrism { bottom, top, inradius } => (vec![bottom], vec![top, inradius]),
-        Shape::Pyramid { base, half_width, height } => (vec![base], vec![half_width, height]),
-        Shape::Rhombus {
-            bottom,
-            top,
-            half_x,
-            half_z,
-            rounding,
-        } => (vec![bottom], vec![top, half_x, half_z, rounding]),
-        Shape::RoundedCone { a, b, a_radius, b_radius } => (vec![a, b], vec![a_radius, b_radius]),
-        Shape::SolidAngle {
-            apex,
-            reach,
-            radius,
-            height,
-            ..
-        } => (vec![apex], vec![reach, radius, height]),
-        Shape::Triangle { corners } => (corners.iter_mut().collect(), vec![]),
-        Shape::Quad { corners } => (corners.iter_mut().collect(), vec![]),
-    };
-    for point in points {
-        *point *= by;
-    }
-    for length in lengths {
-        *length *= by;
-    }
-    shape
 }
 
 impl Shape {

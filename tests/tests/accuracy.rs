@@ -1,9 +1,11 @@
 //! The table of accuracy is whole, and nothing is less accurate than it allows.
 
-use gsdf_tests::accuracy::table::{allowed, floors, strays, verdict};
+use gsdf_tests::accuracy::record::Record;
+use gsdf_tests::accuracy::table::{allowed, floors, strays, verdict, write_bounds};
 use gsdf_tests::accuracy::{Cell, Corpus, Reference, chart};
 use gsdf_tests::shape::KINDS;
 use std::fs;
+use std::path::Path;
 
 /// Rays in each cell: ten million in all.
 const RAYS: u64 = 36_901;
@@ -23,6 +25,16 @@ fn every_cell_has_its_rows_and_no_row_is_without_a_cell() {
         Cell::all().count() + (0..KINDS.len()).map(missing).sum::<usize>(),
         KINDS.len() * Corpus::ALL.len()
     );
+}
+
+/// The bounds are what `accuracy --record tests/accuracy.csv --bounds tests/accuracy-bounds.csv` makes of the record.
+#[test]
+fn the_bounds_follow_from_the_record() {
+    let file = |name: &str| Path::new(env!("CARGO_MANIFEST_DIR")).join(name);
+    let mut bounds = Vec::new();
+    write_bounds(&Record::read(&file("accuracy.csv")).unwrap(), &mut bounds).unwrap();
+    let committed = fs::read(file("accuracy-bounds.csv")).unwrap();
+    assert!(bounds == committed, "the committed bounds are not those of the committed record");
 }
 
 #[test]
@@ -48,7 +60,7 @@ fn the_fast_reference_is_the_exact_one() {
         for ray in 0..200 {
             // A target for every few rays: the exact answer takes longer than a new solid.
             let trial = cell.trial(ray * 67);
-            let reference = Reference::new(trial.shape, trial.pose);
+            let reference = Reference::new(trial.solid);
             let exact = reference.slow(trial.origin, trial.direction);
             rays += 1;
             let Some(swift) = reference.swift(trial.origin, trial.direction) else {
@@ -57,7 +69,7 @@ fn the_fast_reference_is_the_exact_one() {
             answers += 1;
             assert_eq!(swift.is_some(), exact.is_some(), "{trial:?}");
             let Some((swift, exact)) = swift.zip(exact) else { continue };
-            let ends = if trial.shape.is_facet() { 1 } else { 2 };
+            let ends = if trial.solid.shape.is_facet() { 1 } else { 2 };
             for (swift, exact) in swift.into_iter().zip(exact).take(ends) {
                 assert_eq!(swift.is_some(), exact.is_some(), "{trial:?}");
                 let Some((swift, exact)) = swift.zip(exact) else { continue };
@@ -75,8 +87,8 @@ fn the_fast_reference_is_the_exact_one() {
 /// A facet of the exact reference is a little thick, by a share of this.
 fn reference_scale(trial: &gsdf_tests::accuracy::Trial) -> f64 {
     let speed = trial.direction.as_dvec3().length();
-    if trial.shape.is_facet() {
-        1e5 * trial.shape.extent() / speed
+    if trial.solid.shape.is_facet() {
+        1e5 * trial.solid.shape.extent() / speed
     } else {
         0.0
     }

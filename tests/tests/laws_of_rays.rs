@@ -7,7 +7,7 @@ use glam::{DMat3, DVec3, Mat3, Vec3};
 use gsdf_nostd::{Departure, HalfSpace, Hit, Lane, Leaf, Line, MAX_LENGTH, Node, Program, Ray, Solid, Span, Toward, Transform, V3};
 use gsdf_tests::conformance::packet::bits;
 use gsdf_tests::corpus;
-use gsdf_tests::laws::{Scene, scaled};
+use gsdf_tests::laws::Scene;
 use gsdf_tests::poses::{Posed, random_motion};
 use gsdf_tests::sandwich::{Trial, disagreements};
 use gsdf_tests::shape::{KINDS, Shape, log_uniform, unit};
@@ -227,7 +227,11 @@ fn a_power_of_two_as_unit_of_length_changes_no_bit() {
             let nodes = scene.nodes(&scene.tree);
             let factor = 2.0_f32.powi(rng.random_range(-8..=20));
             let larger = Scene {
-                solids: scene.solids.iter().map(|(shape, frame)| (scaled(shape, factor), *frame)).collect(),
+                solids: scene
+                    .solids
+                    .iter()
+                    .map(|(shape, frame)| (shape.measured(|length| length * factor), *frame))
+                    .collect(),
                 ..scene.clone()
             };
             let larger_nodes = larger.nodes(&scene.tree);

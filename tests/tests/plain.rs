@@ -15,7 +15,7 @@ fn packets_of_plain_numbers_have_their_bits() {
     }) {
         for ray in 0..500 {
             let trial = cell.trial(ray * 7);
-            let (leaf, ray) = (trial.shape.leaf().unwrap(), Ray::new(trial.origin, trial.direction).unwrap());
+            let (leaf, ray) = (trial.solid.leaf().unwrap(), Ray::new(trial.origin, trial.direction).unwrap());
             let line = ray.line(Plain(0.0_f32));
             let alone = leaf.span_along(&line);
             let like = Plain(F32x8::new([0.0; 8]));

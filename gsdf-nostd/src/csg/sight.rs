@@ -91,7 +91,7 @@ impl<'a, L: Solid, S, R: Start> Sight<'a, L, S, R> {
         S: AsRef<[Span<T>]>,
     {
         let ray = self.ray();
-        let found = self.march_from(ray.parameter_on_line(T::from(ray.range().start)))?;
+        let found = self.march_from(ray.start_on_line(T::from(0.0)))?;
         let t = ray.parameter_of(found);
         if !t.to_f32().is_finite() {
             return None;
@@ -114,7 +114,7 @@ impl<'a, L: Solid, S, R: Start> Sight<'a, L, S, R> {
         S: AsRef<[Span<T>]>,
     {
         let ray = self.ray();
-        let start = ray.parameter_on_line(T::from(ray.range().start));
+        let start = ray.start_on_line(T::from(0.0));
         let found = march(self.program.nodes, self.spans.as_ref(), start);
         March {
             t: ray.parameter_of(found.t),
@@ -141,7 +141,7 @@ impl<'a, L: Solid, S, R: Start> Sight<'a, L, S, R> {
         S: AsRef<[Span<T>]>,
     {
         let ray = self.ray();
-        let t = ray.parameter_on_line(T::from(ray.range().start));
+        let t = ray.start_on_line(T::from(0.0));
         Crossings { sight: self, t }
     }
 

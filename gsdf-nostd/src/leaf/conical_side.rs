@@ -150,7 +150,7 @@ impl<T: Real> SeenCone<T> {
         let across = profile.axis.cross(x.cross(profile.axis));
         let around = across.normalized_or(V3::new(zero, zero, zero));
         let away = -profile.axis.scaled(profile.s);
-        (around.scaled(profile.k) + away).normalized_or(-toward.v)
+        toward.unit_normal(around.scaled(profile.k) + away)
     }
 }
 

@@ -156,7 +156,7 @@ impl<T: Real> SeenSide<T> {
     #[inline(always)]
     pub(super) fn normal(&self, axis: V3<T>, toward: &Toward<T>, t: T) -> V3<T> {
         let turned = self.w + toward.v.cross(axis).scaled(t);
-        axis.cross(turned).normalized_or(-toward.v)
+        toward.unit_normal(axis.cross(turned))
     }
 }
 

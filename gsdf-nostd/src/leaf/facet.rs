@@ -43,10 +43,11 @@ impl<T: Real, const N: usize> SeenFacet<T, N> {
         }
     }
 
-    /// The facet seen from a point that may lie on it; `normal` is of unit length.
+    /// The facet seen from a point that may lie on it; `across` is what [`across`] makes of its edges.
     #[inline(always)]
-    pub(super) fn grounded(self, corners: &[Vec3; N], normal: V3<T>, ground: &Ground<T>) -> Self {
+    pub(super) fn grounded(self, corners: &[Vec3; N], across: V3<T>, ground: &Ground<T>) -> Self {
         let one = ground.face.splat_like(1.0);
+        let normal = unit_or_zero(across);
         let mut extent = 0.0;
         for corner in corners {
             extent = larger(extent, max_norm(*corner));
@@ -107,9 +108,11 @@ impl<T: Real, const N: usize> SeenFacet<T, N> {
         Span::between_where(near & met, t, exit)
     }
 
-    /// `normal` turned against the ray where it enters the facet, along the ray where it leaves it.
+    /// The unit normal, turned against the ray where it enters the facet, along the ray where it leaves it; `across` is
+    /// what [`across`] makes of its edges.
     #[inline(always)]
-    pub(super) fn normal(&self, normal: V3<T>, toward: &Toward<T>, t: T) -> V3<T> {
+    pub(super) fn normal(&self, across: V3<T>, toward: &Toward<T>, t: T) -> V3<T> {
+        let normal = toward.unit_normal(across);
         let entering = self.span(toward).enter.eq(t);
         let along = t.splat_like(0.0).lt(normal.dot(toward.v));
         V3::select(entering.differs_from(along), normal, -normal)
@@ -223,22 +226,29 @@ fn splitter<T: Real>(like: T) -> T {
     T::select(beyond_single.eq(one), one.splat_like(4097.0), one + one.splat_like(134_217_728.0))
 }
 
-/// A unit vector across `first` and `second`; where they are as good as parallel, `otherwise`.
+/// A vector across `first` and `second`, zero where they are as good as parallel.
 ///
 /// The part of `second` along `first` is taken away before they are multiplied, so that the normal of a needle is that
 /// of corners moved by rounding errors, and no worse.
 #[inline(always)]
-pub(super) fn across<T: Real>(first: V3<T>, second: V3<T>, otherwise: V3<T>) -> V3<T> {
+pub(super) fn across<T: Real>(first: V3<T>, second: V3<T>) -> V3<T> {
     let unscaled = first.scaled(first.x.splat_like(1.0) / first.norm_squared());
     let upright = second - first.scaled(unscaled.dot(second));
-    unscaled.cross(upright).normalized_or(otherwise)
+    unscaled.cross(upright)
 }
 
-/// The standard distance to a facet with a unit normal: to its plane over the facet, to the nearest edge beside it.
+#[inline(always)]
+fn unit_or_zero<T: Real>(across: V3<T>) -> V3<T> {
+    across.normalized_or(V3::splat(across.x, Vec3::ZERO))
+}
+
+/// The standard distance to a facet: to its plane over the facet, to the nearest edge beside it. `across` is what [`across`]
+/// makes of its edges.
 ///
 /// Source: I. Quilez, Distance functions (triangle, quad).
 #[inline(always)]
-pub(super) fn distance<T: Real, const N: usize>(corners: &[Vec3; N], normal: V3<T>, p: V3<T>) -> T {
+pub(super) fn distance<T: Real, const N: usize>(corners: &[Vec3; N], across: V3<T>, p: V3<T>) -> T {
+    let normal = unit_or_zero(across);
     let (zero, one) = (p.x.splat_like(0.0), p.x.splat_like(1.0));
     let mut to_edge = zero.splat_like(f32::INFINITY);
     let mut over = zero.eq(zero);

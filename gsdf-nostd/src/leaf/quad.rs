@@ -72,12 +72,12 @@ impl Quad {
         self.corners
     }
 
-    /// The unit vector about which the corners turn to the left.
+    /// A vector about which the corners turn to the left.
     #[inline(always)]
-    fn normal<T: Real>(&self, like: T, otherwise: V3<T>) -> V3<T> {
+    fn across<T: Real>(&self, like: T) -> V3<T> {
         let [a, b, c, d] = self.corners;
         let (a, b, c, d) = (V3::splat(like, a), V3::splat(like, b), V3::splat(like, c), V3::splat(like, d));
-        across(c - a, d - b, otherwise)
+        across(c - a, d - b)
     }
 }
 
@@ -86,7 +86,7 @@ impl Solid for Quad {
 
     #[inline(always)]
     fn distance<T: Real>(&self, p: V3<T>) -> T {
-        facet::distance(&self.corners, self.normal(p.x, V3::splat(p.x, Vec3::ZERO)), p)
+        facet::distance(&self.corners, self.across(p.x), p)
     }
 
     #[inline(always)]
@@ -101,8 +101,7 @@ impl Solid for Quad {
 
     #[inline(always)]
     fn grounded<T: Real>(&self, seen: Self::Seen<T>, ground: &Ground<T>) -> Self::Seen<T> {
-        let normal = self.normal(ground.face, V3::splat(ground.face, Vec3::ZERO));
-        seen.grounded(&self.corners, normal, ground)
+        seen.grounded(&self.corners, self.across(ground.face), ground)
     }
 
     #[inline(always)]
@@ -114,7 +113,7 @@ impl Solid for Quad {
     #[inline(always)]
     fn surface<T: Real>(&self, seen: &Self::Seen<T>, toward: &Toward<T>, t: T) -> Surface<T> {
         Surface {
-            normal: seen.normal(self.normal(t, -toward.v), toward, t),
+            normal: seen.normal(self.across(t), toward, t),
             face: t.splat_like(0.0),
         }
     }

@@ -125,7 +125,7 @@ impl Solid for Sphere {
     fn surface<T: Real>(&self, seen: &Self::Seen<T>, toward: &Toward<T>, t: T) -> Surface<T> {
         let outward = seen.w + toward.v.scaled(t);
         Surface {
-            normal: outward.normalized_or(-toward.v),
+            normal: toward.unit_normal(outward),
             face: t.splat_like(0.0),
         }
     }

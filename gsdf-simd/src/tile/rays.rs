@@ -103,17 +103,18 @@ impl<T: Lanes> Rays<T> {
         for (across, column) in across.iter_mut().zip(columns) {
             *across = raster.across(column);
         }
-        let zero = T::splat(token, 0.0);
+        // No ray starts nearer than the least normal number: see `Ray::start_on_line`.
+        let earliest = T::splat(token, f32::MIN_POSITIVE);
         for row in 0..packets::<T>() / COLUMNS {
             let upward = raster.upward(rows + T::splat(token, y as f32 + (row * height::<T>()) as f32));
             for (column, across) in across.into_iter().enumerate() {
                 let packet = row * COLUMNS + column;
                 let (origin, direction) = raster.line_to(across, upward);
-                let (direction, scale) = scaled(direction);
+                let (direction, scale, length) = scaled(direction);
                 let line = &mut self.lines[packet];
                 line.origin = origin;
                 line.toward = if components { Toward::new(direction) } else { Toward::without_components(direction) };
-                (self.scales[packet], self.starts[packet]) = (scale, zero);
+                (self.scales[packet], self.starts[packet]) = (scale, earliest * length);
             }
         }
     }

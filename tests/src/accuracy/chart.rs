@@ -1,6 +1,6 @@
 //! Error against distance, as a chart.
 
-use super::trial::{Arithmetic, Reference, Trial};
+use super::trial::{Arithmetic, Placed, Reference, Trial};
 use crate::shape::{Shape, across};
 use glam::Vec3;
 use plotters::prelude::*;
@@ -49,7 +49,7 @@ fn errors(shape: &Shape, arithmetic: Arithmetic) -> Vec<(f64, f64)> {
     let leaf = shape.leaf().expect("the exhibits are valid shapes");
     let distances: Vec<f64> = distances().collect();
     let at = |(number, &distance): (usize, &f64)| {
-        let reference = Reference::new(*shape, None);
+        let reference = Reference::new(Placed::in_world(*shape));
         let mut rng = Pcg64::seed_from_u64(number as u64);
         let mut errors = Vec::new();
         while errors.len() < RAYS {
@@ -60,8 +60,7 @@ fn errors(shape: &Shape, arithmetic: Arithmetic) -> Vec<(f64, f64)> {
             let origin = (point + away * distance).as_vec3();
             let direction = (point - origin.as_dvec3()).normalize().as_vec3();
             let trial = Trial {
-                shape: *shape,
-                pose: None,
+                solid: Placed::in_world(*shape),
                 origin,
                 direction,
             };

@@ -2,8 +2,10 @@
 
 use super::chart;
 use super::corpus::Corpus;
-use super::measure::{Cell, Measured};
-use super::table::{allowed, floors, verdict};
+use super::measure::Cell;
+use super::record::Record;
+use super::statistics::Summary;
+use super::table::{allowed, floors, recorded_verdict, verdict, write_bounds};
 use super::trial::{Arithmetic, Reference};
 use crate::shape::KINDS;
 use clap::builder::PossibleValuesParser;
@@ -23,7 +25,7 @@ use std::time::Instant;
 #[derive(Debug, Parser)]
 #[command(name = "accuracy", version)]
 pub struct Arguments {
-    /// Rays in each cell of the table
+    /// Rays in each cell of the table, those included that a record already has
     #[arg(long, value_name = "N", default_value_t = 36_901, value_parser = value_parser!(u64).range(1..))]
     rays: u64,
     /// Kinds of leaves, separated by commas [default: all]
@@ -32,9 +34,14 @@ pub struct Arguments {
     /// Corpora, separated by commas [default: all]
     #[arg(long, value_name = "NAMES", value_delimiter = ',', value_parser = PossibleValuesParser::new(Corpus::ALL.iter().map(|corpus| corpus.name())))]
     corpus: Vec<String>,
-    /// Also write what was measured to this file, as CSV; every largest error is then known, which takes longer
+    /// Go on with the record in this CSV file, or begin it: measure the rays that it lacks, and write the largest errors of
+    /// all to it. It may be ended at any time, and gone on with later. What was measured by other code is not to be gone on
+    /// with: delete it
     #[arg(long, value_name = "FILE")]
     record: Option<PathBuf>,
+    /// Write the bounds that follow from the record to this CSV file, instead
+    #[arg(long, value_name = "FILE", requires = "record", conflicts_with_all = ["replay", "chart"])]
+    bounds: Option<PathBuf>,
     /// Show one ray, by its number, of one leaf and corpus, instead
     #[arg(long, value_name = "NUMBER")]
     replay: Option<u64>,
@@ -70,6 +77,12 @@ impl Arguments {
             write(&path.with_extension("md"), &chart::markdown(&svg))?;
             return Ok(Outcome::Kept);
         }
+        if let (Some(bounds), Some(record)) = (&self.bounds, &self.record) {
+            let mut text = Vec::new();
+            write_bounds(&Record::read(record)?, &mut text)?;
+            write(bounds, &text)?;
+            return Ok(Outcome::Kept);
+        }
         let cells = self.cells();
         if let Some(ray) = self.replay {
             let [cell] = cells[..] else {
@@ -82,72 +95,126 @@ impl Arguments {
             let (leaf, corpus) = (self.leaf.join(","), self.corpus.join(","));
             return Err(format!("there are no rays of the corpus {corpus} at {leaf}").into());
         }
-        self.measure(&cells)
+        match &self.record {
+            Some(path) => self.extend(&cells, path),
+            None => self.measure(&cells),
+        }
     }
 
+    /// Measures rays that no file knows of, and holds them to the table.
     fn measure(&self, cells: &[Cell]) -> Result<Outcome, Box<dyn Error>> {
-        let mut record = self.record.as_ref().map(csv::Writer::from_path).transpose()?;
-        let bar = progress(cells.len() as u64);
-        let start = Instant::now();
+        let progress = Progress::new(cells.len() as u64);
         let mut out = io::stdout().lock();
         let mut breaches = Vec::new();
-        let mut rays = 0;
-        for (number, &cell) in cells.iter().enumerate() {
-            let floors = if record.is_some() { [0.0; 3] } else { floors(cell) };
-            let measured = cell.measure(0..self.rays, floors);
-            rays += self.rays;
-            bar.suspend(|| print(&mut out, cell, &measured))?;
-            if let Some(record) = &mut record {
-                write_record(record, cell, &measured)?;
-            }
+        for &cell in cells {
+            let measured = cell.measure(0..self.rays, floors(cell));
+            progress.suspend(|| {
+                print(&mut out, cell, |arithmetic| {
+                    Some(measured.statistics[arithmetic as usize].summary())
+                })
+            })?;
             breaches.extend(verdict(cell, &measured));
-            bar.inc(1);
-            if (number + 1) % CHECKPOINT == 0 {
-                let (seconds, count) = (start.elapsed().as_secs(), breaches.len());
-                bar.suspend(|| {
-                    eprintln!(
-                        "checkpoint: {} of {} cells, {rays} rays, {seconds} s, {count} breaches",
-                        number + 1,
-                        cells.len()
-                    );
-                });
-            }
+            progress.step(self.rays, breaches.len());
         }
-        bar.finish_and_clear();
+        self.conclude(&mut out, &progress, &breaches)
+    }
+
+    /// Goes on with a record until it holds all the rays, and holds what it then says to the table.
+    ///
+    /// The file is written after every cell, and all cells are as far as the others but for one round: so a run may end at
+    /// any time, and the next one goes on where it was.
+    fn extend(&self, cells: &[Cell], path: &Path) -> Result<Outcome, Box<dyn Error>> {
+        let mut record = Record::read(path)?;
+        let ends = || (1..=self.rays.div_ceil(ROUND)).map(|round| (round * ROUND).min(self.rays));
+        let missing: Vec<(Cell, u64)> = ends()
+            .flat_map(|end| cells.iter().map(move |&cell| (cell, end)))
+            .filter(|&(cell, end)| record.rays(cell) < end)
+            .collect();
+        let progress = Progress::new(missing.len() as u64);
+        let mut breaches = 0;
+        for (cell, end) in missing {
+            let rays = record.rays(cell)..end;
+            let count = end - rays.start;
+            let measured = cell.measure(rays, record.floors(cell));
+            record.add(cell, &measured);
+            record.write(path)?;
+            // At once: a long run that breaks the table need not be waited for.
+            for breach in verdict(cell, &measured) {
+                breaches += 1;
+                progress.suspend(|| eprintln!("BREACH {breach}"));
+            }
+            progress.step(count, breaches);
+        }
+        let mut out = io::stdout().lock();
+        let mut breaches = Vec::new();
+        for &cell in cells {
+            print(&mut out, cell, |arithmetic| record.get(cell, arithmetic).copied())?;
+            breaches.extend(recorded_verdict(cell, &record));
+        }
+        self.conclude(&mut out, &progress, &breaches)
+    }
+
+    fn conclude(&self, out: &mut impl Write, progress: &Progress, breaches: &[String]) -> Result<Outcome, Box<dyn Error>> {
+        progress.bar.finish_and_clear();
         for cell in missing(&self.leaf, &self.corpus) {
             writeln!(out, "{cell}")?;
         }
-        for breach in &breaches {
+        for breach in breaches {
             writeln!(out, "BREACH {breach}")?;
         }
-        let seconds = start.elapsed().as_secs();
-        writeln!(
-            out,
-            "{rays} rays in {} cells, {seconds} s: {} breaches",
-            cells.len(),
-            breaches.len()
-        )?;
-        if let Some(record) = &mut record {
-            record.flush()?;
-        }
+        let (rays, seconds) = (progress.rays.get(), progress.start.elapsed().as_secs());
+        writeln!(out, "{rays} rays, {seconds} s: {} breaches", breaches.len())?;
         Ok(if breaches.is_empty() { Outcome::Kept } else { Outcome::Breached })
     }
 }
 
 /// After how many cells a line says how far it got.
-const CHECKPOINT: usize = 16;
+const CHECKPOINT: u64 = 16;
 
-fn write(path: &Path, text: &str) -> Result<(), Box<dyn Error>> {
-    Ok(fs::write(path, text).map_err(|error| format!("cannot write {}: {error}", path.display()))?)
+/// How many rays of a cell are measured before those of the next, where a record is written.
+const ROUND: u64 = 1 << 18;
+
+/// How far a run is.
+struct Progress {
+    bar: ProgressBar,
+    start: Instant,
+    rays: std::cell::Cell<u64>,
 }
 
-fn progress(cells: u64) -> ProgressBar {
-    // Hidden where standard error is no terminal.
-    let bar = ProgressBar::with_draw_target(Some(cells), ProgressDrawTarget::stderr());
-    match ProgressStyle::with_template("{wide_bar} {pos}/{len} cells, {eta} left") {
-        Ok(style) => bar.with_style(style),
-        Err(_) => bar,
+impl Progress {
+    fn new(cells: u64) -> Self {
+        // Hidden where standard error is no terminal.
+        let bar = ProgressBar::with_draw_target(Some(cells), ProgressDrawTarget::stderr());
+        let bar = match ProgressStyle::with_template("{wide_bar} {pos}/{len} cells, {eta} left") {
+            Ok(style) => bar.with_style(style),
+            Err(_) => bar,
+        };
+        Self {
+            bar,
+            start: Instant::now(),
+            rays: std::cell::Cell::new(0),
+        }
     }
+
+    /// Writes something where the bar is not in the way.
+    fn suspend<R>(&self, write: impl FnOnce() -> R) -> R {
+        self.bar.suspend(write)
+    }
+
+    /// One cell more, of so many rays, after which there were so many breaches.
+    fn step(&self, rays: u64, breaches: usize) {
+        self.rays.set(self.rays.get() + rays);
+        self.bar.inc(1);
+        let (done, all) = (self.bar.position(), self.bar.length().unwrap_or_default());
+        if done.is_multiple_of(CHECKPOINT) {
+            let (rays, seconds) = (self.rays.get(), self.start.elapsed().as_secs());
+            self.suspend(|| eprintln!("checkpoint: {done} of {all} cells, {rays} rays, {seconds} s, {breaches} breaches"));
+        }
+    }
+}
+
+fn write(path: &Path, text: impl AsRef<[u8]>) -> Result<(), Box<dyn Error>> {
+    Ok(fs::write(path, text).map_err(|error| format!("cannot write {}: {error}", path.display()))?)
 }
 
 /// Lines on the cells that have no rays, and why.
@@ -167,13 +234,13 @@ fn missing(leaves: &[String], corpora: &[String]) -> Vec<String> {
         .collect()
 }
 
-fn print(out: &mut impl Write, cell: Cell, measured: &Measured) -> io::Result<()> {
+fn print(out: &mut impl Write, cell: Cell, found: impl Fn(Arithmetic) -> Option<Summary>) -> io::Result<()> {
     for arithmetic in cell.arithmetics() {
-        let found = &measured.statistics[arithmetic as usize];
+        let Some(found) = found(arithmetic) else { continue };
         let (name, corpus) = (KINDS[cell.leaf], cell.corpus.name());
         let most = allowed(cell, arithmetic).map_or([f64::NAN; 4], |row| [row.wrong, row.p99, row.most, row.conditioned]);
         write!(out, "{name:16} {corpus:16} {:6}", arithmetic.name())?;
-        let values = [found.wrong_share(), found.p99(), found.most.error, found.conditioned.error];
+        let values = [found.wrong_share(), found.p99, found.most.error, found.conditioned.error];
         for (value, most) in values.iter().zip(most) {
             write!(out, "  {:>8} /{:>8}", short(*value), short(most))?;
         }
@@ -191,30 +258,11 @@ fn short(value: f64) -> String {
     }
 }
 
-fn write_record(record: &mut csv::Writer<fs::File>, cell: Cell, measured: &Measured) -> csv::Result<()> {
-    for arithmetic in cell.arithmetics() {
-        let found = &measured.statistics[arithmetic as usize];
-        record.serialize((
-            KINDS[cell.leaf],
-            cell.corpus.name(),
-            arithmetic.name(),
-            found.rays,
-            found.wrong,
-            format!("{:.4e}", found.p99()),
-            format!("{:.4e}", found.most.error),
-            format!("{:.4e}", found.conditioned.error),
-            found.conditioned.ray,
-            measured.asked,
-        ))?;
-    }
-    Ok(())
-}
-
 /// Everything about one ray.
 fn replay(cell: Cell, ray: u64) -> Result<(), Box<dyn Error>> {
     let mut out = io::stdout().lock();
     let trial = cell.trial(ray);
-    let (leaf, reference) = (trial.shape.leaf()?, Reference::new(trial.shape, trial.pose));
+    let (leaf, reference) = (trial.solid.leaf()?, Reference::new(trial.solid));
     let line = (trial.origin, trial.direction);
     writeln!(out, "{trial:#?}")?;
     let swift = reference.swift(trial.origin, trial.direction);

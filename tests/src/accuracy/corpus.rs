@@ -1,11 +1,11 @@
 //! Where rays and solids of the table come from.
 
-use super::trial::Trial;
+use super::trial::{Placed, Trial};
 use crate::corpus::jittered;
 use crate::poses::random_affine;
 use crate::shape::{KINDS, SOLIDS, Shape, across, log_uniform, unit};
 use glam::{DMat3, DVec3, Vec3};
-use gsdf_nostd::{Ray, Transform};
+use gsdf_nostd::{Ray, Transform, Unit};
 use rand::{Rng, RngExt};
 
 macro_rules! corpora {
@@ -67,6 +67,9 @@ corpora! {
     Close = "close",
     /// In frames that are turned, sheared, and scaled by up to 2^10 either way.
     Posed = "posed",
+    /// Scenes at 1e-30, at 1e30, and with coordinates to a quarter of the largest number, in a unit of their own, along
+    /// directions as far out of range.
+    Units = "units",
 }
 
 /// The kind of a name in [`KINDS`].
@@ -104,10 +107,11 @@ impl Corpus {
 #[derive(Clone, Debug)]
 pub struct Target {
     corpus: Corpus,
-    /// The solid.
-    pub shape: Shape,
+    shape: Shape,
     /// The frame it stands in.
     pub pose: Option<Transform>,
+    /// By what power of two the world is larger than the numbers it is drawn in, if it has a unit.
+    scale: Option<i32>,
     size: f64,
     surface: Vec<(DVec3, DVec3)>,
     edges: Vec<DVec3>,
@@ -128,10 +132,13 @@ impl Target {
                 let surface = (0..8).map(|_| shape.surface(rng)).collect();
                 let edges = (0..4).map(|_| shape.edge_point(rng)).collect();
                 let pose = (corpus == Corpus::Posed).then(|| random_affine(rng, 1000.0));
+                // Moderate scenes reach to 2^11.
+                let scale = (corpus == Corpus::Units).then(|| [-100, 100, 115][rng.random_range(0..3)]);
                 return Self {
                     corpus,
                     shape,
                     pose,
+                    scale,
                     size,
                     surface,
                     edges,
@@ -149,15 +156,33 @@ impl Target {
         for _ in 0..ATTEMPTS {
             let (origin, direction) = self.line(rng);
             if Ray::new(origin, direction).is_ok() {
+                let (origin, direction) = match self.scale {
+                    Some(scale) => {
+                        // As far out of range as the scene, or not at all.
+                        let speed = rng.random_range(0..=scale.abs()) * scale.signum();
+                        (origin * power(scale), direction * power(speed))
+                    }
+                    None => (origin, direction),
+                };
                 return Trial {
-                    shape: self.shape,
-                    pose: self.pose,
+                    solid: self.solid(),
                     origin,
                     direction,
                 };
             }
         }
         panic!("no ray of the corpus {} at {:?} is valid", self.corpus.name(), self.shape)
+    }
+
+    /// The solid, where it stands.
+    #[must_use]
+    pub fn solid(&self) -> Placed {
+        let world = |scale: i32| self.shape.measured(|number| number * power(scale));
+        Placed {
+            shape: self.scale.map_or(self.shape, world),
+            pose: self.pose,
+            unit: self.scale.and_then(|scale| Unit::of(power(scale)).ok()),
+        }
     }
 
     fn surface<R: Rng>(&self, rng: &mut R) -> (DVec3, DVec3) {
@@ -265,7 +290,7 @@ impl Target {
                 let length = powers[rng.random_range(0..3)].exp2();
                 self.at(rng, distance, length)
             }
-            Corpus::Moderate | Corpus::Far | Corpus::Tiny | Corpus::Angles => self.at(rng, distance, length),
+            Corpus::Moderate | Corpus::Far | Corpus::Tiny | Corpus::Angles | Corpus::Units => self.at(rng, distance, length),
         }
     }
 
@@ -328,6 +353,10 @@ impl Target {
             (matrix * direction).as_vec3(),
         )
     }
+}
+
+fn power(exponent: i32) -> f32 {
+    2.0_f32.powi(exponent)
 }
 
 /// The matrix of a pose, from the frame to the world.

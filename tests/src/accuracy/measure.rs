@@ -13,7 +13,7 @@ use rand_pcg::Pcg64;
 use rayon::prelude::*;
 
 /// How many rays in succession are aimed at one solid.
-const RAYS_AT_ONE: u64 = 128;
+const RAYS_AT_ONE: u64 = 512;
 
 /// How much larger than `|t|` the condition of a crossing may be, as far as it is the ray's, for its error to count in
 /// units in the last place.
@@ -135,10 +135,11 @@ impl Cell {
     /// Measures rays at one and the same target.
     fn measure_at_one(self, rays: Range<u64>, floors: &Floors) -> Measured {
         let target = self.target(rays.start);
+        let solid = target.solid();
         let view = View {
-            leaf: target.shape.leaf().expect("corpora make valid shapes"),
-            reference: Reference::new(target.shape, target.pose),
-            is_facet: target.shape.is_facet(),
+            leaf: solid.leaf().expect("corpora make valid shapes"),
+            reference: Reference::new(solid),
+            is_facet: solid.shape.is_facet(),
             floors,
         };
         let mut measured = Measured::default();

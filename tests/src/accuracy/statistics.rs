@@ -23,6 +23,44 @@ pub struct Statistics {
     counts: Vec<u32>,
 }
 
+/// What is told of the errors: the figures of a row of the table.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Summary {
+    /// The rays.
+    pub rays: u64,
+    /// Those that are wrong.
+    pub wrong: u64,
+    /// The first of them.
+    pub first_wrong: Option<u64>,
+    /// The error that one crossing in a hundred exceeds, in units in the last place; of rays that were measured in parts,
+    /// the largest of any part.
+    pub p99: f64,
+    /// The largest error of a well-conditioned crossing, in units in the last place.
+    pub most: Worst,
+    /// The largest error of any crossing, in units roundoff of its condition.
+    pub conditioned: Worst,
+}
+
+impl Summary {
+    /// The share of rays that are wrong.
+    #[must_use]
+    pub fn wrong_share(&self) -> f64 {
+        self.wrong as f64 / self.rays.max(1) as f64
+    }
+
+    /// The figures of these rays and others.
+    #[must_use]
+    pub fn joined(mut self, other: &Self) -> Self {
+        self.rays += other.rays;
+        self.wrong += other.wrong;
+        self.first_wrong = [self.first_wrong, other.first_wrong].into_iter().flatten().min();
+        self.p99 = self.p99.max(other.p99);
+        self.most.see(other.most);
+        self.conditioned.see(other.conditioned);
+        self
+    }
+}
+
 /// A largest error and the number of the ray that had it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Worst {
@@ -86,10 +124,17 @@ impl Statistics {
         0.0
     }
 
-    /// The share of rays that are wrong.
+    /// The figures.
     #[must_use]
-    pub fn wrong_share(&self) -> f64 {
-        self.wrong as f64 / self.rays.max(1) as f64
+    pub fn summary(&self) -> Summary {
+        Summary {
+            rays: self.rays,
+            wrong: self.wrong,
+            first_wrong: self.first_wrong,
+            p99: self.p99(),
+            most: self.most,
+            conditioned: self.conditioned,
+        }
     }
 
     /// The statistics of these rays and others.

@@ -1,10 +1,25 @@
 //! The table: what is allowed in every cell, and whether what was measured is.
 
-use super::measure::{Cell, Measured};
-use super::rows::ROWS;
-use super::statistics::{Statistics, Worst};
+use super::measure::{Cell, Measured, is_curved};
+use super::record::Record;
+use super::statistics::{Summary, Worst};
 use super::trial::Arithmetic;
 use crate::shape::KINDS;
+use std::error::Error;
+use std::io::Write;
+use std::sync::LazyLock;
+
+/// The rows of the table, which `accuracy --bounds` makes of the record.
+static BOUNDS: &str = include_str!("../../accuracy-bounds.csv");
+
+/// The names of its columns.
+const COLUMNS: [&str; 7] = ["leaf", "corpus", "arithmetic", "wrong_share", "p99_ulp", "most_ulp", "u_condition"];
+
+/// How many rays of a cell must have been measured for a bound to follow from them.
+pub const LEAST_RAYS: u64 = 1_000_000;
+
+/// By how much a bound that nothing derives is larger than what was measured.
+const ROOM: f64 = 4.0;
 
 /// The most that is allowed in a cell.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -19,37 +34,104 @@ pub struct Allowed {
     pub conditioned: f64,
 }
 
+/// A row of the table.
+#[derive(Clone, Debug, PartialEq)]
+struct Row {
+    leaf: String,
+    corpus: String,
+    arithmetic: String,
+    allowed: Allowed,
+}
+
+fn rows() -> &'static [Row] {
+    static ROWS: LazyLock<Vec<Row>> = LazyLock::new(|| parsed(BOUNDS).expect("the committed bounds are a table"));
+    &ROWS
+}
+
+fn parsed(text: &str) -> Result<Vec<Row>, Box<dyn Error>> {
+    let mut reader = csv::Reader::from_reader(text.as_bytes());
+    if reader.headers()? != &COLUMNS[..] {
+        return Err("the columns are not those of bounds".into());
+    }
+    let row = |row: Result<csv::StringRecord, csv::Error>| {
+        let row = row?;
+        let number = |column: usize| row[column].parse::<f64>();
+        Ok(Row {
+            leaf: row[0].to_owned(),
+            corpus: row[1].to_owned(),
+            arithmetic: row[2].to_owned(),
+            allowed: Allowed {
+                wrong: number(3)?,
+                p99: number(4)?,
+                most: number(5)?,
+                conditioned: number(6)?,
+            },
+        })
+    };
+    reader.records().map(row).collect()
+}
+
 /// What is allowed in a cell, if it has a row.
 #[must_use]
 pub fn allowed(cell: Cell, arithmetic: Arithmetic) -> Option<Allowed> {
-    let key = (KINDS[cell.leaf], cell.corpus.name(), arithmetic.name());
-    let row = ROWS.iter().find(|row| (row.0, row.1, row.2) == key)?;
-    let [wrong, p99, most, conditioned] = row.3;
-    Some(Allowed {
-        wrong,
-        p99,
-        most,
-        conditioned,
-    })
+    let key = names(cell, arithmetic);
+    let row = rows()
+        .iter()
+        .find(|row| (row.leaf.as_str(), row.corpus.as_str(), row.arithmetic.as_str()) == key)?;
+    Some(row.allowed)
+}
+
+fn names(cell: Cell, arithmetic: Arithmetic) -> (&'static str, &'static str, &'static str) {
+    (KINDS[cell.leaf], cell.corpus.name(), arithmetic.name())
 }
 
 /// The rows that no cell has: of an unknown name, or where there are no such rays.
 #[must_use]
 pub fn strays() -> Vec<String> {
     let known: Vec<_> = Cell::all()
-        .flat_map(|cell| {
-            cell.arithmetics()
-                .map(move |arithmetic| (KINDS[cell.leaf], cell.corpus.name(), arithmetic.name()))
-        })
+        .flat_map(|cell| cell.arithmetics().map(move |arithmetic| names(cell, arithmetic)))
         .collect();
-    let is_stray = |row: &&super::rows::Row| !known.contains(&(row.0, row.1, row.2));
-    ROWS.iter()
+    let is_stray = |row: &&Row| !known.contains(&(&row.leaf, &row.corpus, &row.arithmetic));
+    rows()
+        .iter()
         .filter(is_stray)
-        .map(|row| format!("{} {} {}", row.0, row.1, row.2))
+        .map(|row| format!("{} {} {}", row.leaf, row.corpus, row.arithmetic))
         .collect()
 }
 
+/// What the page `numerics` of the library's documentation derives for a kind of leaf, in units roundoff of the
+/// condition.
+#[must_use]
+pub fn derived(leaf: usize) -> f64 {
+    match KINDS[leaf] {
+        "half-space" | "cuboid" => 3.0,
+        "sphere" => 2.5,
+        "cylinder" | "capped cylinder" | "capsule" | "rhombus" => 4.5,
+        _ if is_curved(leaf) => 20.0,
+        _ => 4.0,
+    }
+}
+
 impl Allowed {
+    /// The bounds that follow from what was measured: four times as much, rounded up to two digits; of robust arithmetics
+    /// what is [`derived`], where that is met. Nothing is held to less than four rays, or to less than four units in the
+    /// last place.
+    #[must_use]
+    pub fn following_from(found: &Summary, cell: Cell, arithmetic: Arithmetic) -> Self {
+        let derived = derived(cell.leaf);
+        let conditioned = found.conditioned.error;
+        Self {
+            wrong: rounded_up(ROOM * found.wrong.max(1) as f64 / found.rays as f64).min(1.0),
+            p99: rounded_up(ROOM * found.p99.max(1.0)),
+            most: rounded_up(ROOM * found.most.error.max(1.0)),
+            conditioned: if arithmetic != Arithmetic::Plain && conditioned <= derived {
+                derived
+            } else {
+                rounded_up(ROOM * conditioned)
+            },
+        }
+    }
+
     /// How many of so many rays may be wrong: the share, with room for four standard deviations of chance.
     #[must_use]
     pub fn wrong_of(&self, rays: u64) -> f64 {
@@ -59,7 +141,7 @@ impl Allowed {
 
     /// Every way in which what was measured is more than allowed, with the number of the ray.
     #[must_use]
-    pub fn breaches(&self, found: &Statistics) -> Vec<(String, u64)> {
+    pub fn breaches(&self, found: &Summary) -> Vec<(String, u64)> {
         let mut breaches = Vec::new();
         if found.wrong as f64 > self.wrong_of(found.rays) {
             let ray = found.first_wrong.unwrap_or_default();
@@ -68,8 +150,8 @@ impl Allowed {
                 ray,
             ));
         }
-        if found.p99() > self.p99 {
-            breaches.push((format!("p99 {:e} ulp, allowed {:e}", found.p99(), self.p99), found.most.ray));
+        if found.p99 > self.p99 {
+            breaches.push((format!("p99 {:e} ulp, allowed {:e}", found.p99, self.p99), found.most.ray));
         }
         let mut worst = |name: &str, found: Worst, allowed: f64| {
             if found.error.is_nan() || found.error > allowed {
@@ -82,16 +164,65 @@ impl Allowed {
     }
 }
 
+/// The least number of two digits that is not below this positive one.
+fn rounded_up(number: f64) -> f64 {
+    let unit = 10.0_f64.powf(number.log10().floor() - 1.0);
+    // What is a number of two digits but for rounding counts as one.
+    let rounded = (number / unit * (1.0 - 1e-12)).ceil() * unit;
+    format!("{rounded:.1e}").parse().unwrap_or(rounded)
+}
+
+/// Writes the bounds that follow from a record.
+///
+/// # Errors
+/// Where a cell is missing in the record or has too few rays, or the bounds cannot be written.
+pub fn write_bounds(record: &Record, out: impl Write) -> Result<(), Box<dyn Error>> {
+    let mut rows = csv::Writer::from_writer(out);
+    rows.write_record(COLUMNS)?;
+    for cell in Cell::all() {
+        for arithmetic in cell.arithmetics() {
+            let (leaf, corpus, name) = names(cell, arithmetic);
+            let found = record
+                .get(cell, arithmetic)
+                .filter(|found| found.rays >= LEAST_RAYS)
+                .ok_or_else(|| format!("{leaf} {corpus} {name}: fewer than {LEAST_RAYS} rays in the record"))?;
+            let bounds = Allowed::following_from(found, cell, arithmetic);
+            rows.write_record([
+                leaf,
+                corpus,
+                name,
+                &format!("{:e}", bounds.wrong),
+                &format!("{:e}", bounds.p99),
+                &format!("{:e}", bounds.most),
+                &bounds.conditioned.to_string(),
+            ])?;
+        }
+    }
+    Ok(rows.flush()?)
+}
+
 /// What of a cell breaks the table: a missing row, or a breach with the ray that makes it.
 #[must_use]
 pub fn verdict(cell: Cell, measured: &Measured) -> Vec<String> {
+    judged(cell, |arithmetic| Some(measured.statistics[arithmetic as usize].summary()))
+}
+
+/// The same of what is recorded of a cell.
+#[must_use]
+pub fn recorded_verdict(cell: Cell, record: &Record) -> Vec<String> {
+    judged(cell, |arithmetic| record.get(cell, arithmetic).copied())
+}
+
+fn judged(cell: Cell, found: impl Fn(Arithmetic) -> Option<Summary>) -> Vec<String> {
     let name = format!("--leaf '{}' --corpus {}", KINDS[cell.leaf], cell.corpus.name());
     let judged = cell.arithmetics().flat_map(|arithmetic| {
-        let found = &measured.statistics[arithmetic as usize];
         let Some(allowed) = allowed(cell, arithmetic) else {
             return vec![format!("{name} has no row for {}", arithmetic.name())];
         };
-        let breaches = allowed.breaches(found).into_iter();
+        let Some(found) = found(arithmetic) else {
+            return vec![format!("{name} was not measured for {}", arithmetic.name())];
+        };
+        let breaches = allowed.breaches(&found).into_iter();
         let say = |(what, ray): (String, u64)| {
             let (arithmetic, trial) = (arithmetic.name(), cell.trial(ray));
             format!("{arithmetic}: {what}; ray {ray}, seen again by {name} --replay {ray}: {trial:?}")
@@ -104,45 +235,85 @@ pub fn verdict(cell: Cell, measured: &Measured) -> Vec<String> {
 /// For each arithmetic, up to where errors need no condition to be known for certain to be allowed.
 #[must_use]
 pub fn floors(cell: Cell) -> [f64; 3] {
-    Arithmetic::ALL.map(|arithmetic| allowed(cell, arithmetic).map_or(0.0, |allowed| allowed.conditioned / 4.0))
+    Arithmetic::ALL.map(|arithmetic| allowed(cell, arithmetic).map_or(0.0, |allowed| allowed.conditioned / ROOM))
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{Allowed, Statistics, Worst};
+    use super::{Allowed, Arithmetic, Cell, Summary, Worst, rounded_up};
+    use crate::accuracy::Corpus;
 
-    const ALLOWED: Allowed = Allowed {
-        wrong: 1e-3,
-        p99: 4.0,
-        most: 10.0,
-        conditioned: 2.5,
+    const FOUND: Summary = Summary {
+        rays: 100_000,
+        wrong: 100,
+        first_wrong: Some(3),
+        p99: 3.9,
+        most: Worst { error: 10.0, ray: 1 },
+        conditioned: Worst { error: 2.5, ray: 1 },
     };
-
-    fn found() -> Statistics {
-        let mut found = Statistics::default();
-        (found.rays, found.wrong) = (100_000, 100);
-        found.most = Worst { error: 10.0, ray: 1 };
-        found.conditioned = Worst { error: 2.5, ray: 1 };
-        for _ in 0..100 {
-            found.count(3.0);
-        }
-        found
-    }
 
     #[test]
     fn what_is_allowed_is_no_breach_and_anything_more_is() {
-        assert!(ALLOWED.breaches(&found()).is_empty());
-        let worse: [fn(&mut Statistics); 5] = [
+        let allowed = Allowed {
+            wrong: 1e-3,
+            p99: 4.0,
+            most: 10.0,
+            conditioned: 2.5,
+        };
+        assert!(allowed.breaches(&FOUND).is_empty());
+        let worse: [fn(&mut Summary); 5] = [
             |found| found.wrong = 200,
-            |found| (0..3).for_each(|_| found.count(5.0)),
+            |found| found.p99 = 4.1,
             |found| found.most.error = 10.1,
             |found| found.conditioned.error = 2.6,
             |found| found.conditioned.error = f64::NAN,
         ];
         for worsen in worse {
-            let mut found = found();
+            let mut found = FOUND;
             worsen(&mut found);
-            assert_eq!(ALLOWED.breaches(&found).len(), 1);
+            assert_eq!(allowed.breaches(&found).len(), 1);
+        }
+    }
+
+    #[test]
+    fn bounds_are_derived_or_four_times_what_was_measured() {
+        let sphere = Cell {
+            leaf: 1,
+            corpus: Corpus::Moderate,
+        };
+        let bounds = |found: &Summary, arithmetic| Allowed::following_from(found, sphere, arithmetic);
+        let expected = Allowed {
+            wrong: 4e-3,
+            p99: 16.0,
+            most: 40.0,
+            conditioned: 2.5,
+        };
+        assert_eq!(bounds(&FOUND, Arithmetic::Robust), expected);
+        assert_eq!(bounds(&FOUND, Arithmetic::Plain).conditioned, 10.0);
+        let mut worse = FOUND;
+        worse.conditioned.error = 2.6;
+        assert_eq!(bounds(&worse, Arithmetic::Double).conditioned, 11.0);
+        let none = bounds(
+            &Summary {
+                rays: 1_000_000,
+                ..Summary::default()
+            },
+            Arithmetic::Robust,
+        );
+        assert_eq!((none.wrong, none.p99, none.most, none.conditioned), (4e-6, 4.0, 4.0, 2.5));
+    }
+
+    #[test]
+    fn bounds_have_two_digits() {
+        for (number, rounded) in [
+            (1.0, 1.0),
+            (10.0, 10.0),
+            (10.1, 11.0),
+            (0.001_234, 0.0013),
+            (9.91e7, 1e8),
+            (4.4e-5, 4.4e-5),
+        ] {
+            assert_eq!(rounded_up(number), rounded);
         }
     }
 }

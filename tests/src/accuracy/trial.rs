@@ -7,7 +7,7 @@ use crate::reference::{Expr, Root};
 use crate::shape::Shape;
 use core::cell::OnceCell;
 use glam::Vec3;
-use gsdf_nostd::{Lane, Leaf, Plain, Ray, Solid as _, Transform};
+use gsdf_nostd::{Invalid, Lane, Leaf, Plain, Ray, Solid as _, Transform, Unit};
 
 /// The arithmetics of the table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -56,13 +56,50 @@ impl Arithmetic {
     }
 }
 
-/// A ray at a solid.
+/// A solid where it stands.
 #[derive(Clone, Copy, Debug)]
-pub struct Trial {
+pub struct Placed {
     /// The solid, in its own frame.
     pub shape: Shape,
     /// The frame; `None` for the world's.
     pub pose: Option<Transform>,
+    /// The unit the library measures it in; `None` where it is given the numbers as they are.
+    pub unit: Option<Unit>,
+}
+
+impl Placed {
+    /// A solid of the world, in no unit.
+    #[must_use]
+    pub fn in_world(shape: Shape) -> Self {
+        Self {
+            shape,
+            pose: None,
+            unit: None,
+        }
+    }
+
+    /// The library's leaf of a shape that stands here.
+    fn leaf_of(&self, shape: Shape) -> Result<Leaf, Invalid> {
+        match self.unit {
+            Some(unit) => shape.measured(|number| unit.length(number)).leaf(),
+            None => shape.leaf(),
+        }
+    }
+
+    /// The library's leaf.
+    ///
+    /// # Errors
+    /// Where the library refuses the solid, which corpora do not make.
+    pub fn leaf(&self) -> Result<Leaf, Invalid> {
+        self.leaf_of(self.shape)
+    }
+}
+
+/// A ray at a solid.
+#[derive(Clone, Copy, Debug)]
+pub struct Trial {
+    /// The solid.
+    pub solid: Placed,
     /// Where the ray starts, in the world.
     pub origin: Vec3,
     /// Where it goes.
@@ -84,11 +121,16 @@ impl Trial {
     }
 
     fn span<T: Lane>(&self, leaf: &Leaf, like: T, to_f64: impl Fn(T) -> f64) -> Option<[f64; 2]> {
-        let ray = Ray::new(self.origin, self.direction).expect("corpora make valid rays");
+        let made = match self.solid.unit {
+            Some(unit) => unit.ray(self.origin, self.direction),
+            None => Ray::new(self.origin, self.direction).map(|ray| (ray, Unit::ONE)),
+        };
+        let (ray, parameter) = made.expect("corpora make valid rays");
         let line = ray.line(like);
-        let line = self.pose.map_or(line, |pose| pose.line_to_local(&line));
+        let line = self.solid.pose.map_or(line, |pose| pose.line_to_local(&line));
         let span = leaf.span_along(&line);
-        let end = |t| to_f64(ray.parameter_of(t));
+        let in_world = f64::from(parameter.exponent()).exp2();
+        let end = |t| to_f64(ray.parameter_of(t)) * in_world;
         (span.enter < span.exit).then(|| [end(span.enter), end(span.exit)])
     }
 }
@@ -96,18 +138,18 @@ impl Trial {
 /// A solid in exact and in double-double arithmetic.
 #[derive(Clone, Debug)]
 pub struct Reference {
-    shape: Shape,
-    pose: Option<Transform>,
+    solid: Placed,
     exact: Expr,
     doubled: Solid,
     inputs: OnceCell<Vec<Input>>,
 }
 
 impl Reference {
-    /// The reference of a solid in a frame.
+    /// The reference of a solid.
     #[must_use]
-    pub fn new(shape: Shape, pose: Option<Transform>) -> Self {
-        let (middle, reach) = shape.middle_and_reach(1e-6);
+    pub fn new(solid: Placed) -> Self {
+        let Placed { shape, pose, unit } = solid;
+        let (middle, reach) = shape.middle_and_reach(unit.unwrap_or(Unit::ONE).to_world(1e-6).into());
         let (middle, reach) = pose.map_or((middle, reach), |pose| {
             let place = matrix(&pose) * middle + pose.origin().as_dvec3();
             (place, reach * f64::from(pose.stretch()))
@@ -124,8 +166,7 @@ impl Reference {
             );
         }
         Self {
-            shape,
-            pose,
+            solid,
             exact: posed(shape.exact(0.0), pose.as_ref()),
             doubled,
             inputs: OnceCell::new(),
@@ -145,7 +186,7 @@ impl Reference {
     #[must_use]
     pub fn slow(&self, origin: Vec3, direction: Vec3) -> Option<Ends> {
         let spans = self.exact.spans(origin, direction);
-        assert!(spans.len() <= 1, "{:?} has {} spans", self.shape, spans.len());
+        assert!(spans.len() <= 1, "{:?} has {} spans", self.solid.shape, spans.len());
         let end = |root: &Root| root.finite().map(Ball::from);
         spans.first().map(|(enter, exit)| [end(enter), end(exit)])
     }
@@ -166,7 +207,7 @@ impl Reference {
     /// What every number is worth that the solid is given by.
     fn inputs(&self) -> Vec<Input> {
         let mut values = Vec::new();
-        let mut shape = self.shape;
+        let mut shape = self.solid.shape;
         shape.for_each_number(|number| values.push(*number));
         let of_shape = values
             .iter()
@@ -174,7 +215,7 @@ impl Reference {
             .filter(|(_, value)| **value != 0.0)
             .filter_map(|(index, &value)| {
                 let with = |number: f32| {
-                    let (mut shape, mut at) = (self.shape, 0);
+                    let (mut shape, mut at) = (self.solid.shape, 0);
                     shape.for_each_number(|old| {
                         *old = if at == index { number } else { *old };
                         at += 1;
@@ -183,11 +224,11 @@ impl Reference {
                 };
                 // One of two balls that hardly reaches out of the other must not be lost in it.
                 let moved = |number: f32| {
-                    let is_lost = matches!(self.shape, Shape::RoundedCone { .. }) && with(number).leaf().is_err();
+                    let is_lost = matches!(self.solid.shape, Shape::RoundedCone { .. }) && self.solid.leaf_of(with(number)).is_err();
                     if is_lost { value } else { number }
                 };
                 let (less, more) = (moved(value * (1.0 - STEP)), moved(value * (1.0 + STEP)));
-                let solid = |number: f32| posed(surfaces(&with(number)), self.pose.as_ref());
+                let solid = |number: f32| posed(surfaces(&with(number)), self.solid.pose.as_ref());
                 let step = f64::from(more) - f64::from(less);
                 (step != 0.0).then(|| self.doubled.input(&solid(less), &solid(more), step, value.into()))
             });

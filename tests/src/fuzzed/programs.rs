@@ -191,7 +191,8 @@ fn check_ray<T: Number>(program: &Program<'_>, tree: &Tree, poses: &[Transform],
         let empty = span.enter == infinity && span.exit == -infinity;
         assert!(empty || span.enter < span.exit, "{span:?} along {ray:?}: {nodes:?}");
     }
-    let start = ray.parameter_on_line(T::from(ray.range().start));
+    // What is nearer than the least normal number is past.
+    let start = ray.parameter_on_line(T::from(ray.range().start.max(f32::MIN_POSITIVE)));
     let end = T::from(ray.range().end);
     let ahead: Vec<_> = tree.crossings(&spans).into_iter().filter(|crossing| crossing.t > start).collect();
     let within: Vec<_> = ahead.iter().take_while(|crossing| ray.parameter_of(crossing.t) < end).collect();
@@ -233,6 +234,8 @@ fn check_ray<T: Number>(program: &Program<'_>, tree: &Tree, poses: &[Transform],
         "along {ray:?}: {nodes:?}"
     );
     if let Some(hit) = hit {
+        // A range from there on is another one.
+        assert!(hit.t >= f32::MIN_POSITIVE, "{hit:?} along {ray:?}: {nodes:?}");
         assert!((hit.normal.length() - 1.0).abs() < 1e-5, "{hit:?} along {ray:?}: {nodes:?}");
         assert!(!hit.point.is_nan(), "{hit:?} along {ray:?}: {nodes:?}");
     }
@@ -257,7 +260,7 @@ fn check_departure(program: &Program<'_>, ray: Ray, direction: glam::Vec3, tally
     assert!(!signed.is_nan(), "from {hit:?} along {direction}: {nodes:?}");
     if let Some(next) = next {
         assert!(
-            next.t == signed.abs() && next.entering == signed.is_sign_positive(),
+            next.t == signed.abs() && next.entering == (signed > 0.0) && next.t > 0.0,
             "{next:?}, but {signed} from {hit:?} along {direction}: {nodes:?}"
         );
         assert!(

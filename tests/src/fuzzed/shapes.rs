@@ -165,9 +165,8 @@ impl Asked<'_> {
         let mut scratch = [Span::EMPTY; 8];
         let sight = self.program.along(ray, &mut scratch).unwrap_or_else(|error| panic!("{error}"));
         let march = sight.march::<f32>();
-        // A parameter below the normal numbers may be zero, whose sign still tells.
         assert!(
-            march.t == along.abs() && march.inside == along.is_sign_negative(),
+            march.t == along.abs() && along != 0.0 && march.inside == (along < 0.0),
             "{march:?}: {}",
             what()
         );
@@ -178,12 +177,10 @@ impl Asked<'_> {
         for _ in 0..2 {
             let sight = self.program.along(from, &mut scratch).unwrap_or_else(|error| panic!("{error}"));
             let Some(hit) = sight.cast() else { break };
+            assert!(hit.t > from.range().start, "{hit:?} once more along {ray:?}: {name}");
             self.check_hit(&ray, &hit);
             tally.met += 1;
-            match ray.within(hit.t..f32::INFINITY) {
-                Ok(rest) => from = rest,
-                Err(_) => break,
-            }
+            from = ray.within(hit.t..f32::INFINITY).unwrap_or_else(|error| panic!("{error}"));
         }
     }
 

@@ -75,7 +75,7 @@ pub fn transforms(bytes: &[u8]) -> Tally {
         assert!(is_same_side || is_near(0.0), "{}", what());
         let hit = sight.cast();
         if let Some(hit) = hit {
-            assert!(hit.t >= 0.0 && (hit.normal.length() - 1.0).abs() < 1e-5, "{hit:?}: {}", what());
+            assert!(hit.t > 0.0 && (hit.normal.length() - 1.0).abs() < 1e-5, "{hit:?}: {}", what());
         }
         tally.answered += 1;
         tally.met += u64::from(hit.is_some());

@@ -53,7 +53,7 @@ impl Facet<'_> {
             return Expr::Or(Vec::new());
         }
         let normal = self.normal();
-        let extent = self.0.iter().map(|corner| corner.length()).fold(0.0, f32::max);
+        let extent = self.0.iter().map(|corner| corner.as_dvec3().length()).fold(0.0, f64::max);
         let thickness = Exact::from(offset) + Exact::from(extent).scaled(THIN);
         let mut walls = self.outline(offset);
         walls.extend([&normal, &-&normal].map(|side| self.half_space(side, &thickness)));
