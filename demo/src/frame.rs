@@ -1,8 +1,8 @@
-//! A canvas of the demo's own: what the ray of every pixel meets, with the face, which a ray that goes on from there wants to know.
+//! A frame buffer of the demo's own: what the ray of every pixel meets, with the face, which a ray that goes on from there wants to know.
 
 use glam::Vec3;
 use gsdf_nostd::{Mask, Surface};
-use gsdf_simd::{Band, Canvas, Hits, LaneMask, Lanes, MOST_LANES};
+use gsdf_simd::{Hits, LaneMask, Lanes, MOST_LANES, Pixel, TILE_SIDE, Target, Tile, Wants};
 
 /// What one ray met.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -68,31 +68,50 @@ impl Frame {
     }
 }
 
-impl Canvas for Frame {
-    type Band<'b> = FrameBand<'b>;
-
-    fn bands(&mut self, width: u32, rows: u32) -> Vec<FrameBand<'_>> {
-        let width = width.max(1) as usize;
-        self.pixels
-            .chunks_mut(width * rows as usize)
-            .map(|pixels| FrameBand { width, pixels })
-            .collect()
+impl Frame {
+    /// The frame as the target of a renderer.
+    pub fn as_target(&mut self) -> FrameRows<'_> {
+        FrameRows {
+            width: self.width,
+            pixels: &mut self.pixels,
+        }
     }
 }
 
 /// Some rows of a [`Frame`].
 #[derive(Debug)]
-pub struct FrameBand<'b> {
+pub struct FrameRows<'f> {
     width: usize,
-    pixels: &'b mut [Option<Met>],
+    pixels: &'f mut [Option<Met>],
 }
 
-impl Band for FrameBand<'_> {
-    #[inline(always)]
-    fn put<T: Lanes>(&mut self, x: u32, y: u32, count: usize, hits: &Hits<T>) {
-        let start = y as usize * self.width + x as usize;
-        for (pixel, met) in self.pixels.iter_mut().skip(start).take(count).zip(met(hits)) {
-            *pixel = met;
+impl Target for FrameRows<'_> {
+    fn wants(&self) -> Wants {
+        Wants::NORMALS_AND_FACES
+    }
+
+    fn split_at(self, row: u32) -> (Self, Self) {
+        let start = (row as usize * self.width).min(self.pixels.len());
+        let (above, below) = self.pixels.split_at_mut(start);
+        let of = |pixels| FrameRows {
+            width: self.width,
+            pixels,
+        };
+        (of(above), of(below))
+    }
+
+    fn put(&mut self, x: u32, y: u32, tile: &Tile) {
+        let rows = self.pixels.chunks_exact_mut(self.width.max(1)).skip(y as usize).take(TILE_SIDE);
+        for (y, row) in rows.enumerate() {
+            for (x, pixel) in row.iter_mut().skip(x as usize).take(TILE_SIDE).enumerate() {
+                let shown = tile.pixel(x, y);
+                *pixel = (shown.leaf != Pixel::NO_LEAF).then(|| Met {
+                    t: shown.distance,
+                    normal: shown.normal.into(),
+                    leaf: shown.leaf,
+                    face: tile.face[Tile::index(x, y)] as u8,
+                });
+            }
         }
     }
 }
@@ -103,14 +122,15 @@ mod tests {
     use crate::scenes::s3;
     use anyhow::Result;
     use gsdf_nostd::Span;
-    use gsdf_simd::Image;
+    use gsdf_simd::{Renderer, Scene};
 
     #[test]
     fn every_pixel_shows_what_its_ray_hits_by_itself() -> Result<()> {
         let scene = s3();
         let (program, raster) = (scene.program()?, scene.camera.raster(37, 21));
         let mut frame = Frame::new(37, 21);
-        let tally = Image::new(program, raster).render(&mut frame);
+        let scene = Scene::new(program);
+        let effort = Renderer::new(&scene, raster).render(frame.as_target());
         let mut spans = vec![Span::EMPTY; program.leaves()];
         let mut hits = 0;
         for y in 0..21 {
@@ -124,7 +144,7 @@ mod tests {
                 hits += u64::from(hit.is_some());
             }
         }
-        assert_eq!(tally.hits, hits);
+        assert_eq!(effort.hits, hits);
         assert!(frame.row(21).is_empty());
         Ok(())
     }

@@ -10,7 +10,7 @@ use crate::shade::{Sample, Shader};
 use anyhow::{Context, Result};
 use glam::Vec3;
 use gsdf_nostd::{March, Program, Raster, Span};
-use gsdf_simd::{F32x8, Image, Level, MOST_LANES, Packet, scratch};
+use gsdf_simd::{F32x8, Level, MOST_LANES, Packet, Renderer, scratch};
 use image::RgbImage;
 use rayon::prelude::*;
 use std::time::{Duration, Instant};
@@ -114,7 +114,8 @@ pub fn render(scene: &Scene, size: u32, level: Level, step_done: impl Fn() + Syn
 
 /// Casts the primary rays, again and again while that takes no time, and tells the least it took.
 fn cast(program: Program<'_>, raster: Raster, level: Level, frame: &mut Frame) -> Cost {
-    let image = Image::new(program, raster).at_level(level);
+    let prepared = gsdf_simd::Scene::new(program);
+    let mut renderer = Renderer::at_level(&prepared, raster, level);
     let (sweeps, most_sweeps) = count_sweeps(program, raster);
     let begin = Instant::now();
     let mut cost = Cost {
@@ -127,7 +128,7 @@ fn cast(program: Program<'_>, raster: Raster, level: Level, frame: &mut Frame) -
     };
     while cost.time == Duration::MAX || begin.elapsed() < PATIENCE {
         let begin = Instant::now();
-        cost.hits = image.render(frame).hits;
+        cost.hits = renderer.render(frame.as_target()).hits;
         cost.time = cost.time.min(begin.elapsed());
     }
     cost

@@ -18,12 +18,10 @@
 //! ```
 //!
 //! Without the feature `std` (on by default) the crate is `no_std` and does not allocate: packets and their queries.
-//! With it come whole [images](Image) on all cores.
+//! With it come [prepared scenes](Scene) and whole pictures of them on all cores ([`Renderer`]).
 #![cfg_attr(not(feature = "std"), no_std)]
 #![forbid(unsafe_code)]
 
-#[cfg(feature = "std")]
-mod image;
 mod lanes;
 mod level;
 mod packet;
@@ -36,8 +34,6 @@ mod target;
 #[cfg(feature = "std")]
 mod tile;
 
-#[cfg(feature = "std")]
-pub use image::{Band, Canvas, Image, Pixel, Planes, Tally};
 #[cfg(all(feature = "std", target_arch = "x86_64"))]
 pub use lanes::{Avx2Mask, Avx2x8, Avx512Mask, Avx512x16};
 pub use lanes::{F32x8, LaneMask, Lanes, MOST_LANES, Mask8};
@@ -49,7 +45,7 @@ pub use renderer::{Effort, Renderer};
 #[cfg(feature = "std")]
 pub use scene::Scene;
 #[cfg(feature = "std")]
-pub use target::{Records, Target, Tiles, TilesMut};
+pub use target::{Planes, Records, Target, Tiles, TilesMut, Wants};
 #[cfg(feature = "std")]
-pub use tile::{TILE_PIXELS, TILE_SIDE, Tile};
+pub use tile::{Pixel, TILE_PIXELS, TILE_SIDE, Tile};
 pub use packet::{EMPTY, Hits, Packet};

@@ -3,7 +3,7 @@
 use crate::lanes::Lanes;
 use crate::level::{Level, Work};
 use crate::scene::{Scene, View};
-use crate::target::Target;
+use crate::target::{Target, Wants};
 use crate::tile::{TILE_SIDE, Tile, Workspace, cast};
 use core::marker::PhantomData;
 use core::ops::Range;
@@ -106,8 +106,8 @@ where
     match work {
         [] => Effort::default(),
         [only] => {
-            let normals = target.wants_normals();
-            only.render(view, rows.start, normals, &mut target)
+            let wants = target.wants();
+            only.render(view, rows.start, wants, &mut target)
         }
         _ => {
             let half = work.len() / 2;
@@ -126,7 +126,7 @@ where
 /// What renders a row of tiles, in lanes of some type.
 trait Row<L: Solid>: Send {
     /// Renders a row of tiles.
-    fn render(&mut self, view: &View<'_, '_, L>, row: usize, normals: bool, target: &mut dyn PutTiles) -> Effort;
+    fn render(&mut self, view: &View<'_, '_, L>, row: usize, wants: Wants, target: &mut dyn PutTiles) -> Effort;
 }
 
 /// Makes a [`Row`] for the lanes of a level.
@@ -152,13 +152,13 @@ struct RowOf<T: Lanes, L> {
 }
 
 impl<T: Lanes, L: Solid + Send + Sync> Row<L> for RowOf<T, L> {
-    fn render(&mut self, view: &View<'_, '_, L>, row: usize, normals: bool, target: &mut dyn PutTiles) -> Effort {
+    fn render(&mut self, view: &View<'_, '_, L>, row: usize, wants: Wants, target: &mut dyn PutTiles) -> Effort {
         let Self { token, work, tile } = self;
         let token = *token;
         T::vectorize(
             token,
             #[inline(always)]
-            || render_row(token, view, row, normals, work, tile, target),
+            || render_row(token, view, row, wants, work, tile, target),
         )
     }
 }
@@ -168,7 +168,7 @@ fn render_row<T: Lanes, L: Solid>(
     token: T::Token,
     view: &View<'_, '_, L>,
     row: usize,
-    normals: bool,
+    wants: Wants,
     work: &mut Workspace<T, L>,
     own: &mut Tile,
     target: &mut dyn PutTiles,
@@ -184,7 +184,7 @@ fn render_row<T: Lanes, L: Solid>(
             Some(place) => (place, false),
             None => (&mut *own, true),
         };
-        let mut hits = cast(token, view, [x, y], normals, work, place);
+        let mut hits = cast(token, view, [x, y], wants, work, place);
         if width - x < side || height - y < side {
             hits = place.hits(width - x, height - y);
         }

@@ -1,20 +1,19 @@
 //! Where the pixels of a picture go: tiles as they are found, records, or planes.
 
-use crate::image::{Pixel, Planes};
-use crate::tile::{TILE_SIDE, Tile};
+use crate::tile::{Pixel, TILE_SIDE, Tile};
 
 /// Takes the tiles of a picture.
 ///
 /// Implemented here by [`TilesMut`], [`Records`] and [`Planes`]; implement it for a frame buffer of yours.
 pub trait Target: Send + Sized {
-    /// Whether it wants normals. Without them a tile takes up to a third less time.
-    fn wants_normals(&self) -> bool;
+    /// What it wants beside distances and leaves.
+    fn wants(&self) -> Wants;
 
     /// The part above a row and the part from it on, for two threads to fill. The row is a multiple of 16.
     fn split_at(self, row: u32) -> (Self, Self);
 
     /// The tile whose left upper pixel is in column `x` and row `y`, if the pixels are kept as tiles, to be filled in
-    /// place; [`put`](Target::put) is not called for it. Its normals are left as they are where none are wanted.
+    /// place; [`put`](Target::put) is not called for it. What is not wanted is left in it as it is.
     fn tile(&mut self, _x: u32, _y: u32) -> Option<&mut Tile> {
         None
     }
@@ -22,6 +21,33 @@ pub trait Target: Send + Sized {
     /// Takes the tile whose left upper pixel is in column `x` and row `y`, counted from its own first row; both are
     /// multiples of 16. A tile may reach beyond the right or the lower edge.
     fn put(&mut self, x: u32, y: u32, tile: &Tile);
+}
+
+/// What a target wants to know of each pixel beside its distance and its leaf. What it does not want is not computed.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Wants {
+    /// The normals.
+    pub normals: bool,
+    /// The faces of the leaves, which a ray that goes on from there wants to know.
+    pub faces: bool,
+}
+
+impl Wants {
+    /// Distances and leaves alone.
+    pub const NOTHING_ELSE: Self = Self {
+        normals: false,
+        faces: false,
+    };
+    /// Normals too.
+    pub const NORMALS: Self = Self {
+        normals: true,
+        faces: false,
+    };
+    /// Normals and faces too.
+    pub const NORMALS_AND_FACES: Self = Self {
+        normals: true,
+        faces: true,
+    };
 }
 
 /// A picture, tile by tile in reading order: the layout that costs least to fill.
@@ -53,7 +79,7 @@ impl Tiles {
         TilesMut {
             columns: across(self.width),
             tiles: &mut self.tiles,
-            normals: true,
+            wants: Wants::NORMALS,
         }
     }
 
@@ -80,20 +106,20 @@ impl Tiles {
 pub struct TilesMut<'t> {
     tiles: &'t mut [Tile],
     columns: usize,
-    normals: bool,
+    wants: Wants,
 }
 
 impl TilesMut<'_> {
-    /// The same without normals: those of the tiles are left as they are.
+    /// The same with other wants. What is not wanted is left in the tiles as it is.
     #[must_use]
-    pub fn without_normals(self) -> Self {
-        Self { normals: false, ..self }
+    pub fn wanting(self, wants: Wants) -> Self {
+        Self { wants, ..self }
     }
 }
 
 impl Target for TilesMut<'_> {
-    fn wants_normals(&self) -> bool {
-        self.normals
+    fn wants(&self) -> Wants {
+        self.wants
     }
 
     fn split_at(self, row: u32) -> (Self, Self) {
@@ -102,7 +128,7 @@ impl Target for TilesMut<'_> {
         let of = |tiles| TilesMut {
             tiles,
             columns: self.columns,
-            normals: self.normals,
+            wants: self.wants,
         };
         (of(above), of(below))
     }
@@ -137,8 +163,8 @@ impl<'p> Records<'p> {
 }
 
 impl Target for Records<'_> {
-    fn wants_normals(&self) -> bool {
-        true
+    fn wants(&self) -> Wants {
+        Wants::NORMALS
     }
 
     fn split_at(self, row: u32) -> (Self, Self) {
@@ -159,9 +185,27 @@ impl Target for Records<'_> {
     }
 }
 
+/// Planes of the caller's, row by row, each row `stride` numbers long; those that are not wanted are left out.
+#[derive(Debug)]
+pub struct Planes<'p> {
+    /// The parameters of the rays, infinite where they hit nothing.
+    pub distance: &'p mut [f32],
+    /// The components of the normals, zero where a ray hits nothing.
+    pub normal: Option<[&'p mut [f32]; 3]>,
+    /// The numbers of the leaves, [`Pixel::NO_LEAF`] where a ray hits nothing.
+    pub leaf: Option<&'p mut [u32]>,
+    /// How far the rows are apart; at least the width of the picture.
+    pub stride: usize,
+    /// The width of the picture.
+    pub width: u32,
+}
+
 impl Target for Planes<'_> {
-    fn wants_normals(&self) -> bool {
-        self.normal.is_some()
+    fn wants(&self) -> Wants {
+        Wants {
+            normals: self.normal.is_some(),
+            faces: false,
+        }
     }
 
     fn split_at(self, row: u32) -> (Self, Self) {

@@ -8,3 +8,4 @@ mod golden;
 mod images;
 mod lanes;
 mod packets;
+mod tiled;

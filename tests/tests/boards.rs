@@ -3,7 +3,7 @@
 
 use glam::Vec3;
 use gsdf_nostd::{Span, V3};
-use gsdf_simd::{F32x8, Image, Packet, Pixel, scratch};
+use gsdf_simd::{F32x8, Packet, Pixel, Records, Renderer, Scene as Prepared, scratch};
 use gsdf_tests::conformance::contracted::Contracted;
 use gsdf_tests::golden::{hash, staged_picture};
 use gsdf_workload::bits::{LARGE, MEDIUM, SMALL};
@@ -27,7 +27,8 @@ fn check(row: &str, found: u64) {
 fn scenes_in_packets() {
     for scene in SCENES {
         let mut pixels = vec![Pixel::NOTHING; (scene.side * scene.side) as usize];
-        Image::new(scene.program, scene.raster().unwrap()).render(&mut pixels[..]);
+        let prepared = Prepared::new(scene.program);
+        Renderer::new(&prepared, scene.raster().unwrap()).render(Records::new(&mut pixels, scene.side));
         check(scene.name, hash(&pixels));
     }
 }

@@ -3,8 +3,8 @@
 //!
 //! A hash that changes on purpose is a change of results for every user: say so in the commit that changes it.
 
-use gsdf_demo::scenes::{self, Scene};
-use gsdf_simd::{Image, Level, Pixel};
+use gsdf_demo::scenes;
+use gsdf_simd::{Level, Pixel, Records, Renderer, Scene};
 use gsdf_tests::conformance::contracted::Contracted;
 use gsdf_tests::golden::{hash, scalar_picture, staged_picture};
 use rayon::ThreadPoolBuilder;
@@ -17,21 +17,22 @@ const S3: u64 = 0x1394_b776_f4d2_a5ed;
 const S4: u64 = 0x85c7_51e4_f131_a77d;
 const S5: u64 = 0xc924_ee7a_8d5c_3305;
 
-fn scalar(scene: &Scene) -> Vec<Pixel> {
+fn scalar(scene: &scenes::Scene) -> Vec<Pixel> {
     scalar_picture(&scene.program().unwrap(), &scene.camera.raster(SIZE, SIZE)).unwrap()
 }
 
-/// Every packet through the whole program, brute force.
-fn packets(scene: &Scene, level: Level, threads: usize) -> Vec<Pixel> {
+/// In packets, through what each tile sees of the scene.
+fn packets(scene: &scenes::Scene, level: Level, threads: usize) -> Vec<Pixel> {
     let mut pixels = vec![Pixel::NOTHING; (SIZE * SIZE) as usize];
-    let image = Image::new(scene.program().unwrap(), scene.camera.raster(SIZE, SIZE)).at_level(level);
+    let prepared = Scene::new(scene.program().unwrap());
+    let mut renderer = Renderer::at_level(&prepared, scene.camera.raster(SIZE, SIZE), level);
     let pool = ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-    pool.install(|| image.render(&mut pixels[..]));
+    pool.install(|| renderer.render(Records::new(&mut pixels, SIZE)));
     pixels
 }
 
 /// The row of a table: what was cast how, what came out, and what should have.
-fn check(row: &str, scene: &Scene, pixels: &[Pixel], golden: u64) {
+fn check(row: &str, scene: &scenes::Scene, pixels: &[Pixel], golden: u64) {
     let found = hash(pixels);
     assert_eq!(found, golden, "{}, {row}: {found:#018x}, not {golden:#018x}", scene.name);
 }

@@ -1,10 +1,11 @@
 //! Whole images against one scalar query per pixel, bit for bit: every size, layout, camera, level and number of threads.
 
-use core::slice::ChunksMut;
 use glam::{Mat3, Vec3, vec3};
 use gsdf_demo::scenes;
 use gsdf_nostd::{Camera, Csg, Leaf, Node, Program, Raster, Span, Transform};
-use gsdf_simd::{Band, Canvas, F32x8, Hits, Image, LaneMask, Lanes, Level, Mask8, Packet, Pixel, Planes, Tally};
+use gsdf_simd::{
+    Effort, F32x8, Hits, Level, Mask8, Packet, Pixel, Planes, Records, Renderer, Scene, TILE_SIDE, Target, Tile, Tiles, Wants,
+};
 use rayon::ThreadPoolBuilder;
 
 const SIZES: [(u32, u32); 7] = [(1, 1), (7, 3), (8, 8), (9, 17), (33, 20), (3, 50), (64, 1)];
@@ -89,6 +90,7 @@ fn records_are_the_scalar_pixels_on_any_number_of_threads() {
             raster.width() < 8 || raster.height() < 8 || hits * 4 > expected.len(),
             "the camera looks past it"
         );
+        let scene = Scene::new(*program);
         for threads in 1..=3 {
             let mut pixels = vec![
                 Pixel {
@@ -97,16 +99,10 @@ fn records_are_the_scalar_pixels_on_any_number_of_threads() {
                 };
                 expected.len()
             ];
-            let tally = on_threads(threads, || Image::new(*program, *raster).at_level(level).render(&mut pixels[..]));
+            let mut renderer = Renderer::at_level(&scene, *raster, level);
+            let effort = on_threads(threads, || renderer.render(Records::new(&mut pixels, raster.width())));
             assert_same(&pixels, &expected, raster);
-            assert_eq!(
-                (tally.hits, tally.packets),
-                (
-                    hits as u64,
-                    u64::from(raster.width().div_ceil(level.lanes() as u32) * raster.height())
-                )
-            );
-            assert!(u64::from(tally.most_sweeps) <= tally.sweeps && tally.most_sweeps as usize <= program.max_sweeps());
+            assert_eq!(effort.hits, hits as u64);
         }
     });
 }
@@ -120,20 +116,23 @@ fn plane(raster: &Raster, stride: usize) -> Vec<f32> {
 fn planes_are_the_same_pixels_and_nothing_between_rows_is_touched() {
     for_pictures(|program, raster, level| {
         let expected = scalar(program, raster);
+        let scene = Scene::new(*program);
         let width = raster.width() as usize;
         for (stride, threads) in [(width, 1), (width + 1, 2), (width + 13, 3)] {
             let mut distance = plane(raster, stride);
             let (mut x, mut y, mut z) = (distance.clone(), distance.clone(), distance.clone());
             let mut leaf = vec![4_000_000_000; distance.len()];
-            let mut planes = Planes {
+            let planes = Planes {
                 distance: &mut distance,
                 normal: Some([&mut x, &mut y, &mut z]),
                 leaf: Some(&mut leaf),
                 stride,
+                width: raster.width(),
             };
-            on_threads(threads, || Image::new(*program, *raster).at_level(level).render(&mut planes));
+            let mut renderer = Renderer::at_level(&scene, *raster, level);
+            on_threads(threads, || renderer.render(planes));
             for row in 0..raster.height() as usize {
-                let place = |x: usize| row * stride + x;
+                let place = |column: usize| row * stride + column;
                 let pixel = |column: usize| Pixel {
                     distance: distance[place(column)],
                     normal: [x[place(column)], y[place(column)], z[place(column)]],
@@ -159,111 +158,115 @@ fn planes_that_are_not_wanted_are_left_out() {
     for_pictures(|program, raster, level| {
         let expected = scalar(program, raster);
         let stride = raster.width() as usize;
-        let image = Image::new(*program, *raster).at_level(level);
-        let mut distance = plane(raster, stride);
-        let (normal, leaf) = (None, None);
-        image.render(&mut Planes {
-            distance: &mut distance,
-            normal,
-            leaf,
-            stride,
-        });
-        assert!(
-            distance
-                .iter()
-                .zip(&expected)
-                .all(|(found, pixel)| found.to_bits() == pixel.distance.to_bits())
-        );
-
-        let (mut distance, mut leaf) = (plane(raster, stride), vec![0; expected.len()]);
-        image.render(&mut Planes {
-            distance: &mut distance,
-            normal: None,
-            leaf: Some(&mut leaf),
-            stride,
-        });
-        assert!(leaf.iter().zip(&expected).all(|(found, pixel)| *found == pixel.leaf));
-
-        let (mut distance, mut x, mut y, mut z) = (
-            plane(raster, stride),
-            plane(raster, stride),
-            plane(raster, stride),
-            plane(raster, stride),
-        );
-        image.render(&mut Planes {
-            distance: &mut distance,
-            normal: Some([&mut x, &mut y, &mut z]),
-            leaf: None,
-            stride,
-        });
-        assert!((0..expected.len()).all(|index| [x[index], y[index], z[index]] == expected[index].normal));
-    });
-}
-
-/// A frame buffer of a user's: one byte per pixel, the leaf's number plus one, rows of 40 bytes of which the first two
-/// are someone else's.
-struct Screen(Vec<u8>);
-
-struct ScreenBand<'b>(&'b mut [u8]);
-
-impl Screen {
-    const STRIDE: usize = 80;
-    const MARGIN: usize = 2;
-}
-
-impl Canvas for Screen {
-    type Band<'b> = ScreenBand<'b>;
-
-    fn bands(&mut self, _: u32, rows: u32) -> Vec<ScreenBand<'_>> {
-        let chunks: ChunksMut<'_, u8> = self.0.chunks_mut(Self::STRIDE * rows as usize);
-        chunks.map(ScreenBand).collect()
-    }
-}
-
-impl Band for ScreenBand<'_> {
-    fn put<T: Lanes>(&mut self, x: u32, y: u32, count: usize, hits: &Hits<T>) {
-        let start = y as usize * Screen::STRIDE + Screen::MARGIN + x as usize;
-        let (leaves, shown) = (hits.met.leaf.to_array(), hits.hit.to_bits());
-        for (lane, byte) in self.0[start..start + count].iter_mut().enumerate() {
-            *byte = if shown >> lane & 1 == 1 {
-                leaves.as_ref()[lane] as u8 + 1
-            } else {
-                0
-            };
-        }
-    }
-}
-
-#[test]
-fn a_canvas_of_ones_own_gets_every_pixel_once() {
-    for_pictures(|program, raster, level| {
-        let expected = scalar(program, raster);
-        for threads in [1, 3] {
-            let mut screen = Screen(vec![99; Screen::STRIDE * raster.height() as usize]);
-            on_threads(threads, || Image::new(*program, *raster).at_level(level).render(&mut screen));
-            for (row, bytes) in screen.0.chunks(Screen::STRIDE).enumerate() {
-                let width = raster.width() as usize;
-                let shown = expected[row * width..][..width]
-                    .iter()
-                    .map(|pixel| pixel.leaf.wrapping_add(1) as u8);
-                let margin = |count: usize| core::iter::repeat_n(99, count);
-                let whole: Vec<u8> = margin(Screen::MARGIN)
-                    .chain(shown)
-                    .chain(margin(Screen::STRIDE - Screen::MARGIN - width))
-                    .collect();
-                assert_eq!(bytes, whole, "row {row} of {raster:?}");
+        let scene = Scene::new(*program);
+        let mut renderer = Renderer::at_level(&scene, *raster, level);
+        for (with_normals, with_leaves) in [(false, false), (false, true), (true, false)] {
+            let mut distance = plane(raster, stride);
+            let (mut x, mut y, mut z) = (distance.clone(), distance.clone(), distance.clone());
+            let mut leaf = vec![0; expected.len()];
+            renderer.render(Planes {
+                distance: &mut distance,
+                normal: with_normals.then_some([&mut x, &mut y, &mut z]),
+                leaf: with_leaves.then_some(&mut leaf),
+                stride,
+                width: raster.width(),
+            });
+            for (index, pixel) in expected.iter().enumerate() {
+                assert_eq!(distance[index].to_bits(), pixel.distance.to_bits());
+                assert!(!with_leaves || leaf[index] == pixel.leaf);
+                assert!(!with_normals || [x[index], y[index], z[index]] == pixel.normal);
             }
         }
     });
 }
 
-/// A canvas that is too small gets what it has room for, one that is too large keeps the rest, and no size is too
-/// small.
+/// Tiles are the same pixels too; what is not wanted of them stays as it was.
 #[test]
-fn no_canvas_is_written_beyond_image_or_end() {
+fn tiles_are_filled_in_place() {
+    for_pictures(|program, raster, level| {
+        let expected = scalar(program, raster);
+        let scene = Scene::new(*program);
+        let mut renderer = Renderer::at_level(&scene, *raster, level);
+        let mut tiles = Tiles::new(raster.width(), raster.height());
+        let pixels = |tiles: &Tiles| -> Vec<Pixel> {
+            let places = (0..raster.height()).flat_map(|y| (0..raster.width()).map(move |x| (x, y)));
+            places.map(|(x, y)| tiles.pixel(x, y).unwrap()).collect()
+        };
+        on_threads(2, || renderer.render(tiles.as_target().wanting(Wants::NOTHING_ELSE)));
+        for (found, expected) in pixels(&tiles).iter().zip(&expected) {
+            let without = Pixel {
+                normal: [0.0; 3],
+                ..*expected
+            };
+            assert_eq!(bits(found), bits(&without));
+        }
+        on_threads(2, || renderer.render(tiles.as_target()));
+        assert_same(&pixels(&tiles), &expected, raster);
+        assert_eq!(tiles.pixel(raster.width(), 0), None);
+        assert_eq!(tiles.pixel(0, raster.height()), None);
+    });
+}
+
+/// A frame buffer of a user's: one byte per pixel, the leaf's number plus one, rows of 80 bytes of which the first two
+/// are someone else's.
+struct Screen<'b>(&'b mut [u8]);
+
+impl Screen<'_> {
+    const STRIDE: usize = 80;
+    const MARGIN: usize = 2;
+}
+
+impl Target for Screen<'_> {
+    fn wants(&self) -> Wants {
+        Wants::NOTHING_ELSE
+    }
+
+    fn split_at(self, row: u32) -> (Self, Self) {
+        let (above, below) = self.0.split_at_mut(row as usize * Self::STRIDE);
+        (Screen(above), Screen(below))
+    }
+
+    fn put(&mut self, x: u32, y: u32, tile: &Tile) {
+        let rows = self.0.chunks_mut(Self::STRIDE).skip(y as usize).take(TILE_SIDE);
+        for (y, row) in rows.enumerate() {
+            let left = Self::MARGIN + x as usize;
+            let width = (Self::STRIDE - left).min(TILE_SIDE);
+            for (x, byte) in row[left..left + width].iter_mut().enumerate() {
+                // Every pixel is put once.
+                assert_eq!(*byte, 99);
+                *byte = tile.pixel(x, y).leaf.wrapping_add(1) as u8;
+            }
+        }
+    }
+}
+
+#[test]
+fn a_target_of_ones_own_gets_every_pixel_once() {
+    for_pictures(|program, raster, level| {
+        let expected = scalar(program, raster);
+        let scene = Scene::new(*program);
+        for threads in [1, 3] {
+            let mut bytes = vec![99; Screen::STRIDE * raster.height() as usize];
+            let mut renderer = Renderer::at_level(&scene, *raster, level);
+            on_threads(threads, || renderer.render(Screen(&mut bytes)));
+            for (row, bytes) in bytes.chunks(Screen::STRIDE).enumerate() {
+                let width = raster.width() as usize;
+                let shown = expected[row * width..][..width].iter().map(|pixel| pixel.leaf.wrapping_add(1) as u8);
+                assert_eq!(bytes[..Screen::MARGIN], [99; Screen::MARGIN]);
+                let found = &bytes[Screen::MARGIN..][..width];
+                assert!(found.iter().copied().eq(shown), "row {row} of {raster:?}");
+            }
+        }
+    });
+}
+
+/// A target that is too small gets what it has room for, one that is too large keeps the rest, and no size is too small.
+#[test]
+fn no_target_is_written_beyond_picture_or_end() {
     let nodes = nodes();
     let poses = [Transform::IDENTITY];
     let program = Program::new(&nodes).unwrap().posed(&poses).unwrap();
+    let scene = Scene::new(program);
     let raster = cameras()[0].raster(21, 35);
     let expected = scalar(&program, &raster);
     for room in [0, 1, 20, 21, 22, 21 * 16, 21 * 16 + 5, 21 * 35 - 1, 21 * 35, 21 * 35 + 1, 21 * 40] {
@@ -272,24 +275,46 @@ fn no_canvas_is_written_beyond_image_or_end() {
             ..Pixel::NOTHING
         };
         let mut pixels = vec![untouched; room];
-        Image::new(program, raster).render(&mut pixels[..]);
-        let held = room.min(expected.len());
+        Renderer::new(&scene, raster).render(Records::new(&mut pixels, 21));
+        // Whole rows, and no more than there are.
+        let held = (room / 21 * 21).min(expected.len());
         assert_same(&pixels[..held], &expected[..held], &raster);
-        assert!(pixels[held..].iter().all(|pixel| *pixel == untouched), "room for {room}");
+        assert!(pixels[expected.len().min(room)..].iter().all(|pixel| *pixel == untouched), "room for {room}");
     }
     for (width, height) in [(0, 0), (0, 5), (5, 0)] {
-        let tally = Image::new(program, cameras()[1].raster(width, height)).render(&mut [Pixel::NOTHING; 9][..]);
-        assert_eq!(tally, Tally::default());
+        let mut renderer = Renderer::new(&scene, cameras()[1].raster(width, height));
+        let effort = renderer.render(Records::new(&mut [Pixel::NOTHING; 9], width));
+        assert_eq!(effort, Effort::default());
     }
 }
 
-/// An image is rendered at the widest level, unless told otherwise; it says which.
+/// One renderer, picture after picture: of other sizes, from elsewhere, and as if it were new each time.
+#[test]
+fn a_renderer_looks_again() {
+    let nodes = nodes();
+    let poses = [Transform::IDENTITY];
+    let program = Program::new(&nodes).unwrap().posed(&poses).unwrap();
+    let scene = Scene::new(program);
+    let mut renderer = Renderer::new(&scene, cameras()[0].raster(5, 5));
+    for (width, height) in [(40, 30), (8, 70), (100, 3), (33, 33)] {
+        for camera in cameras() {
+            let raster = camera.raster(width, height);
+            renderer.look(raster);
+            let mut pixels = vec![Pixel::NOTHING; (width * height) as usize];
+            renderer.render(Records::new(&mut pixels, width));
+            assert_same(&pixels, &scalar(&program, &raster), &raster);
+        }
+    }
+}
+
+/// A picture is rendered at the widest level, unless told otherwise; the renderer says which.
 #[test]
 fn the_level_can_be_read_and_forced() {
-    let image = || Image::new(scenes::PART.program(), cameras()[0].raster(8, 8));
-    assert_eq!(image().level(), Level::best());
+    let scene = Scene::new(scenes::PART.program());
+    let raster = cameras()[0].raster(8, 8);
+    assert_eq!(Renderer::new(&scene, raster).level(), Level::best());
     for level in Level::available() {
-        assert_eq!(image().at_level(level).level(), level);
+        assert_eq!(Renderer::at_level(&scene, raster, level).level(), level);
     }
 }
 
@@ -297,9 +322,9 @@ fn the_level_can_be_read_and_forced() {
 #[test]
 fn public_types_are_send_and_sync() {
     fn check<T: Send + Sync>() {}
-    check::<(F32x8, Mask8, Packet, Hits, Pixel, Tally, Level)>();
+    check::<(F32x8, Mask8, Packet, Hits, Pixel, Effort, Level, Tile, Tiles)>();
     check::<(
-        Image<'_, Leaf>,
+        Scene<'_, Leaf>,
         Planes<'_>,
         Program<'_>,
         Csg<9>,
@@ -308,4 +333,6 @@ fn public_types_are_send_and_sync() {
         Transform,
         Span<F32x8>,
     )>();
+    fn check_send<T: Send>() {}
+    check_send::<Renderer<'_, '_, Leaf>>();
 }

@@ -4,7 +4,7 @@
 use super::rays::Rays;
 use crate::lanes::Lanes;
 use crate::scene::View;
-use gsdf_nostd::{Solid, Span, V3};
+use gsdf_nostd::{Solid, Span, Surface, V3};
 
 /// The spans of the leaf in a place of the scene along some packets, in ascending order, into every `step`-th of `spans`.
 #[inline(always)]
@@ -34,9 +34,9 @@ pub(crate) fn spans<T: Lanes, L: Solid>(
     );
 }
 
-/// The normals of the leaf in a place of the scene, outward from the program, where the rays of a packet cross its surface.
+/// The surface of the leaf of a number where the rays of a packet cross it, with its normals outward from the program.
 #[inline(always)]
-pub(crate) fn normals<'v, 'a, T: Lanes, L: Solid>(
+pub(crate) fn surface<'v, 'a, T: Lanes, L: Solid>(
     token: T::Token,
     view: &'v View<'_, 'a, L>,
     asked: &mut Asked<'v, 'a, L>,
@@ -44,26 +44,34 @@ pub(crate) fn normals<'v, 'a, T: Lanes, L: Solid>(
     packet: usize,
     rays: &mut Rays<T>,
     t: T,
-) -> V3<T> {
+) -> Surface<T> {
     if asked.number != number {
         asked.ask(view, number);
     }
-    let Some(solid) = asked.solid else { return V3::new(t, t, t) };
+    let Some(solid) = asked.solid else {
+        return Surface {
+            normal: V3::new(t, t, t),
+            face: t,
+        };
+    };
     let line = rays.line_in(asked.frame, view.scene.program(), packet);
     let seen = asked.seen_before.or(asked.seen_now.as_ref());
-    let normal = T::vectorize(
+    let own = T::vectorize(
         token,
         #[inline(always)]
-        || solid.surface_on(seen, line, t).normal,
+        || solid.surface_on(seen, line, t),
     );
     let outward = match view.scene.program().pose(asked.frame) {
-        Some(pose) => pose.normal_to_world(normal),
-        None => normal,
+        Some(pose) => pose.normal_to_world(own.normal),
+        None => own.normal,
     };
-    if asked.negative { -outward } else { outward }
+    Surface {
+        normal: if asked.negative { -outward } else { outward },
+        ..own
+    }
 }
 
-/// The leaf that was asked for normals last: most likely the next packet will ask it again.
+/// The leaf that was asked for its surface last: most likely the next packet will ask it again.
 pub(crate) struct Asked<'v, 'a, L: Solid> {
     number: u32,
     solid: Option<&'a L>,

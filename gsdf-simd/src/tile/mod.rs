@@ -9,10 +9,11 @@ mod reduce;
 mod shade;
 mod state;
 
-pub use pixels::{TILE_PIXELS, TILE_SIDE, Tile};
+pub use pixels::{Pixel, TILE_PIXELS, TILE_SIDE, Tile};
 pub(crate) use state::Workspace;
 
 use crate::lanes::Lanes;
+use crate::target::Wants;
 use crate::scene::{Beam, FANOUT, Form, Nearest, View};
 use core::ops::Range;
 use gsdf_nostd::Solid;
@@ -24,7 +25,7 @@ pub(crate) fn cast<T: Lanes, L: Solid>(
     token: T::Token,
     view: &View<'_, '_, L>,
     [x, y]: [u32; 2],
-    normals: bool,
+    wants: Wants,
     work: &mut Workspace<T, L>,
     tile: &mut Tile,
 ) -> u32 {
@@ -49,7 +50,7 @@ pub(crate) fn cast<T: Lanes, L: Solid>(
             None => {}
         }
     }
-    shade::shade(token, view, normals, work, tile)
+    shade::shade(token, view, wants, work, tile)
 }
 
 /// What the rays of some packets are cast at.

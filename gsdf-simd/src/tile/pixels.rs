@@ -1,7 +1,5 @@
 //! What the rays of a tile have met.
 
-use crate::image::Pixel;
-
 /// The side of a tile, in pixels.
 pub const TILE_SIDE: usize = 16;
 
@@ -21,21 +19,21 @@ pub struct Tile {
     /// The parameters of the rays: depth, for the cameras of `gsdf_nostd`. Infinite where they hit nothing.
     pub distance: [f32; TILE_PIXELS],
     /// The components of the unit normals, outward from the program; zero where a ray hits nothing. Meaningless where
-    /// the canvas wants none.
+    /// the target wants none.
     pub normal: [[f32; TILE_PIXELS]; 3],
-    /// The numbers of the leaves; [`Tile::NO_LEAF`] where a ray hits nothing.
+    /// The numbers of the leaves; [`Pixel::NO_LEAF`] where a ray hits nothing.
     pub leaf: [u32; TILE_PIXELS],
+    /// The numbers of the leaves' faces, where the target wants them.
+    pub face: [u32; TILE_PIXELS],
 }
 
 impl Tile {
-    /// The leaf of a pixel that shows nothing.
-    pub const NO_LEAF: u32 = u32::MAX;
-
     /// A tile that shows nothing.
     pub const NOTHING: Self = Self {
         distance: [f32::INFINITY; TILE_PIXELS],
         normal: [[0.0; TILE_PIXELS]; 3],
-        leaf: [Self::NO_LEAF; TILE_PIXELS],
+        leaf: [Pixel::NO_LEAF; TILE_PIXELS],
+        face: [0; TILE_PIXELS],
     };
 
     /// One pixel as a record; column and row are taken modulo 16.
@@ -71,6 +69,30 @@ impl Tile {
         let block = y / BLOCK_SIDE * (TILE_SIDE / BLOCK_SIDE) + x / BLOCK_SIDE;
         block * BLOCK_SIDE * BLOCK_SIDE + y % BLOCK_SIDE * BLOCK_SIDE + x % BLOCK_SIDE
     }
+}
+
+/// One pixel as a record of 20 bytes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(C)]
+pub struct Pixel {
+    /// The parameter of the ray: depth, for the cameras of `gsdf_nostd`. Infinite where it hits nothing.
+    pub distance: f32,
+    /// The unit normal, outward from the program; zero where the ray hits nothing.
+    pub normal: [f32; 3],
+    /// The number of the leaf; [`Pixel::NO_LEAF`] where the ray hits nothing.
+    pub leaf: u32,
+}
+
+impl Pixel {
+    /// The leaf of a pixel that shows nothing.
+    pub const NO_LEAF: u32 = u32::MAX;
+
+    /// A pixel that shows nothing.
+    pub const NOTHING: Self = Self {
+        distance: f32::INFINITY,
+        normal: [0.0; 3],
+        leaf: Self::NO_LEAF,
+    };
 }
 
 #[cfg(test)]

@@ -6,14 +6,15 @@ use super::rays::{packets, start_of};
 use super::state::Workspace;
 use crate::lanes::{LaneMask, Lanes};
 use crate::scene::View;
-use gsdf_nostd::{Solid, V3};
+use crate::target::Wants;
+use gsdf_nostd::{Solid, Surface, V3};
 
-/// Writes the pixels of a tile, the normals only where they are wanted, and tells how many show something.
+/// Writes the pixels of a tile, normals and faces only where they are wanted, and tells how many show something.
 #[inline(always)]
 pub(crate) fn shade<T: Lanes, L: Solid>(
     token: T::Token,
     view: &View<'_, '_, L>,
-    normals: bool,
+    wants: Wants,
     work: &mut Workspace<T, L>,
     tile: &mut Tile,
 ) -> u32 {
@@ -29,26 +30,32 @@ pub(crate) fn shade<T: Lanes, L: Solid>(
         let start = start_of::<T>(packet);
         let pixels = start..start + T::LANES;
         T::select(hit, along, nothing).store(&mut tile.distance[pixels.clone()]);
-        // What is infinite becomes `Tile::NO_LEAF`.
+        // What is infinite becomes `Pixel::NO_LEAF`.
         let leaf = T::select(hit, leaf, nothing);
         leaf.store_numbers(&mut tile.leaf[pixels.clone()]);
         let waiting = hit.to_bits();
         hits += waiting.count_ones();
-        if normals {
-            let mut normal = V3::new(zero, zero, zero);
+        if wants.normals | wants.faces {
+            let mut met = Surface {
+                normal: V3::new(zero, zero, zero),
+                face: zero,
+            };
             // Each leaf that is met is asked once.
             let mut waiting = waiting;
             while waiting != 0 {
                 let number = tile.leaf[start + waiting.trailing_zeros() as usize % T::LANES];
                 let here = leaf.eq(T::splat(token, number as f32));
                 waiting &= !here.to_bits();
-                let own = leaf::normals(token, view, &mut asked, number, packet, &mut work.rays, t);
-                normal = V3::select(here & hit, own, normal);
+                let own = leaf::surface(token, view, &mut asked, number, packet, &mut work.rays, t);
+                met = own.or_else(here & hit, met);
             }
             let [x, y, z] = &mut tile.normal;
-            normal.x.store(&mut x[pixels.clone()]);
-            normal.y.store(&mut y[pixels.clone()]);
-            normal.z.store(&mut z[pixels]);
+            met.normal.x.store(&mut x[pixels.clone()]);
+            met.normal.y.store(&mut y[pixels.clone()]);
+            met.normal.z.store(&mut z[pixels.clone()]);
+            if wants.faces {
+                met.face.store_numbers(&mut tile.face[pixels]);
+            }
         }
     }
     hits

@@ -1,0 +1,215 @@
+//! What tiles leave out changes no pixel: pictures of random scenes against one scalar query per pixel, bit for bit, at every
+//! level. Solids on grids, whose surfaces coincide and whose pixels tie; copies of copies; eyes inside of solids, on their
+//! surfaces and far away; poses; solids and complements without bounds; parts that are products and parts that are not.
+
+use glam::{Mat3, Vec3, vec3};
+use gsdf_nostd::{
+    Camera, CappedCylinder, Cone, Cuboid, Cylinder, HalfSpace, Leaf, Node, Program, Raster, Span, Sphere, Transform,
+};
+use gsdf_simd::{Level, Pixel, Renderer, Scene, Tiles};
+use gsdf_tests::conformance::packet::Composed;
+use gsdf_tests::shape::unit;
+use rand::{RngExt, SeedableRng};
+use rand_pcg::Pcg64;
+use rayon::prelude::*;
+
+fn scalar(program: &Program<'_>, raster: &Raster) -> Vec<Pixel> {
+    let mut spans = vec![Span::EMPTY; program.leaves()];
+    let places = (0..raster.height()).flat_map(|y| (0..raster.width()).map(move |x| (x, y)));
+    let mut pixel = |(x, y)| {
+        let ray = raster.ray(x, y).ok()?;
+        let hit = program.along(ray, &mut spans).unwrap().cast()?;
+        Some(Pixel {
+            distance: hit.t,
+            normal: hit.normal.to_array(),
+            leaf: hit.leaf,
+        })
+    };
+    places.map(|place| pixel(place).unwrap_or(Pixel::NOTHING)).collect()
+}
+
+fn bits(pixel: &Pixel) -> [u32; 5] {
+    let [x, y, z] = pixel.normal.map(f32::to_bits);
+    [pixel.distance.to_bits(), x, y, z, pixel.leaf]
+}
+
+/// What a picture showed.
+#[derive(Clone, Copy, Debug, Default)]
+struct Shown {
+    pictures: u64,
+    hits: u64,
+    misses: u64,
+    leaving: u64,
+}
+
+impl Shown {
+    fn joined(self, other: Self) -> Self {
+        Self {
+            pictures: self.pictures + other.pictures,
+            hits: self.hits + other.hits,
+            misses: self.misses + other.misses,
+            leaving: self.leaving + other.leaving,
+        }
+    }
+}
+
+fn check(program: &Program<'_>, raster: &Raster, what: &str) -> Shown {
+    let expected = scalar(program, raster);
+    let scene = Scene::new(*program);
+    for level in Level::available() {
+        let mut tiles = Tiles::new(raster.width(), raster.height());
+        Renderer::at_level(&scene, *raster, level).render(tiles.as_target());
+        for (index, expected) in (0..).zip(&expected) {
+            let (x, y) = (index % raster.width(), index / raster.width());
+            let found = tiles.pixel(x, y).unwrap();
+            assert_eq!(
+                bits(&found),
+                bits(expected),
+                "{what}, {level}, pixel {x}, {y} of {raster:?}: {found:?}, not {expected:?}"
+            );
+        }
+    }
+    let hits = expected.iter().filter(|pixel| pixel.leaf != Pixel::NO_LEAF).count() as u64;
+    let leaves = |pixel: &&Pixel| raster.camera().forward().dot(Vec3::from(pixel.normal)) > 0.5;
+    Shown {
+        pictures: 1,
+        hits,
+        misses: expected.len() as u64 - hits,
+        leaving: expected.iter().filter(leaves).count() as u64,
+    }
+}
+
+fn camera(rng: &mut Pcg64, eye: Vec3, target: Vec3, size: f32) -> Camera {
+    let up = unit(rng).as_vec3();
+    let made = if rng.random_range(0..4) == 0 {
+        Camera::orthographic(eye, target, up, size)
+    } else {
+        Camera::pinhole(eye, target, up, rng.random_range(0.05_f32..1.5))
+    };
+    made.unwrap_or_else(|_| camera(rng, eye + Vec3::X, target, size))
+}
+
+#[test]
+fn random_programs() {
+    let shown = (0..1500_u64).into_par_iter().map(|seed| {
+        let mut rng = Pcg64::seed_from_u64(seed);
+        let composed = Composed::random(&mut rng);
+        let program = composed.program();
+        let ray = composed.aimed(&mut rng);
+        let (eye, target) = (ray.origin, ray.origin + ray.direction);
+        if !(eye.is_finite() && target.is_finite() && eye.abs().max_element() < 1e8 && target.abs().max_element() < 1e8) {
+            return Shown::default();
+        }
+        let camera = camera(&mut rng, eye, target, 2.0);
+        let raster = camera.raster(rng.random_range(1..24), rng.random_range(1..24));
+        check(&program, &raster, &format!("seed {seed}"))
+    });
+    let shown = shown.reduce(Shown::default, Shown::joined);
+    assert!(shown.pictures > 1000 && shown.hits > 50_000 && shown.misses > 50_000, "{shown:?}");
+}
+
+/// A number on a coarse grid, so that surfaces meet and coincide.
+fn coarse(rng: &mut Pcg64, reach: i32) -> f32 {
+    rng.random_range(-2 * reach..=2 * reach) as f32 * 0.5
+}
+
+fn solid(rng: &mut Pcg64, at: Vec3) -> Leaf {
+    let size = rng.random_range(1..=3) as f32 * 0.5;
+    match rng.random_range(0..20) {
+        0..6 => Sphere::new(at, size).unwrap().into(),
+        6..12 => Cuboid::new(at, at + Vec3::splat(size)).unwrap().into(),
+        12..16 => {
+            let axis = [Vec3::X, Vec3::Y, Vec3::Z][rng.random_range(0..3)];
+            CappedCylinder::new(at - axis * size, at + axis * size, axis, 0.5 * size).unwrap().into()
+        }
+        16..18 => Cone::new(at + Vec3::Y * size, at - Vec3::Y * size, Vec3::NEG_Y, size).unwrap().into(),
+        18 => HalfSpace::new(at, unit(rng).as_vec3()).unwrap().into(),
+        _ => Cylinder::new(at, Vec3::Z, 0.25 * size).unwrap().into(),
+    }
+}
+
+/// A scene of many parts on a grid: single solids, products, and what is neither; some in a frame of their own.
+fn scattered(rng: &mut Pcg64, parts: usize, reach: i32) -> Vec<Node> {
+    let mut nodes = Vec::new();
+    let mut earlier = Vec::new();
+    for _ in 0..parts {
+        let at = vec3(coarse(rng, reach), coarse(rng, reach), coarse(rng, reach));
+        let frame = if rng.random_range(0..4) == 0 { rng.random_range(1..=2) } else { 0 };
+        let leaf = |rng: &mut Pcg64, earlier: &mut Vec<Leaf>| {
+            let near = at + vec3(coarse(rng, 1), coarse(rng, 1), coarse(rng, 1));
+            // Every so often one that is there already.
+            let solid = match earlier.get(rng.random_range(0..4 * earlier.len().max(1))) {
+                Some(solid) => *solid,
+                None => solid(rng, near),
+            };
+            earlier.push(solid);
+            Node::Leaf { solid, frame }
+        };
+        let first = nodes.is_empty();
+        nodes.push(leaf(rng, &mut earlier));
+        match rng.random_range(0..10) {
+            0..4 => {}
+            4..8 => {
+                // A product, perhaps with more complements than are looked at together.
+                let many = rng.random_range(0..20) == 0;
+                for _ in 0..if many { rng.random_range(60..150) } else { rng.random_range(1..6) } {
+                    nodes.push(leaf(rng, &mut earlier));
+                    nodes.push(if rng.random_range(0..6) == 0 { Node::Intersection } else { Node::Difference });
+                }
+            }
+            8 => {
+                for _ in 0..rng.random_range(1..4) {
+                    nodes.extend([leaf(rng, &mut earlier), leaf(rng, &mut earlier)]);
+                    let operator = [Node::Union, Node::Intersection, Node::Difference];
+                    nodes.push(operator[rng.random_range(0..3)]);
+                    nodes.push(operator[rng.random_range(0..3)]);
+                }
+                // Not at the top, where a union would be taken apart.
+                nodes.extend([leaf(rng, &mut earlier), Node::Difference]);
+            }
+            _ => {
+                nodes.extend([leaf(rng, &mut earlier), Node::Complement, Node::Intersection]);
+            }
+        }
+        if !first {
+            nodes.push(Node::Union);
+        }
+    }
+    if rng.random_range(0..12) == 0 {
+        nodes.push(Node::Complement);
+    }
+    nodes
+}
+
+#[test]
+fn scenes_of_many_parts() {
+    let shown = (0..600_u64).into_par_iter().map(|seed| {
+        let mut rng = Pcg64::seed_from_u64(seed);
+        let (parts, reach) = [(1, 1), (3, 1), (20, 2), (80, 4), (300, 8)][rng.random_range(0..5)];
+        let nodes = scattered(&mut rng, parts, reach);
+        let turn = Mat3::from_axis_angle(unit(&mut rng).as_vec3(), rng.random_range(0.0_f32..3.0));
+        let shear = Mat3::from_cols(vec3(1.0, 0.25, 0.0), vec3(0.0, 2.0, 0.5), vec3(0.125, 0.0, 0.5));
+        let poses = [
+            Transform::affine(turn, vec3(0.5, 0.25, -0.5)).unwrap(),
+            Transform::affine(turn * shear, Vec3::ZERO).unwrap(),
+        ];
+        let program = Program::new(&nodes).unwrap().posed(&poses).unwrap();
+        let size = reach as f32;
+        let target = vec3(coarse(&mut rng, reach), coarse(&mut rng, reach), coarse(&mut rng, reach));
+        // Far away, near, and in the midst of it: on the grid, where eyes lie on surfaces.
+        let eye = match rng.random_range(0..4) {
+            0 => unit(&mut rng).as_vec3() * size * rng.random_range(30.0_f32..3000.0),
+            1..3 => unit(&mut rng).as_vec3() * size * rng.random_range(1.0_f32..4.0),
+            _ => vec3(coarse(&mut rng, reach), coarse(&mut rng, reach), coarse(&mut rng, reach)),
+        };
+        let eye = if eye == target { eye + Vec3::X } else { eye };
+        let camera = camera(&mut rng, eye, target, size);
+        let raster = camera.raster(rng.random_range(1..50), rng.random_range(1..40));
+        check(&program, &raster, &format!("seed {seed}"))
+    });
+    let shown = shown.reduce(Shown::default, Shown::joined);
+    assert!(
+        shown.pictures == 600 && shown.hits > 100_000 && shown.misses > 50_000 && shown.leaving > 5_000,
+        "{shown:?}"
+    );
+}
