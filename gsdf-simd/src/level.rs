@@ -180,7 +180,7 @@ impl fmt::Display for LevelError {
 
 impl core::error::Error for LevelError {}
 
-#[cfg(test)]
+#[cfg(all(test, feature = "std"))]
 mod tests {
     use super::{Level, LevelError};
 
@@ -202,7 +202,6 @@ mod tests {
         assert!(levels.windows(2).all(|pair| pair[0] != pair[1]));
     }
 
-    #[cfg(feature = "std")]
     #[test]
     fn a_variable_that_is_not_set_leaves_the_best() {
         assert_eq!(Level::of_variable("".as_ref()), Ok(Level::best()));
@@ -211,7 +210,6 @@ mod tests {
         }
     }
 
-    #[cfg(feature = "std")]
     #[test]
     fn what_the_machine_lacks_is_refused_with_what_it_has() {
         let error = Level::of_variable("mmx".as_ref()).unwrap_err();
