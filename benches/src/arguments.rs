@@ -4,6 +4,7 @@ use crate::race::Rules;
 use clap::builder::PossibleValuesParser;
 use clap::{Parser, value_parser};
 use gsdf_demo::scenes;
+use gsdf_simd::Level;
 use std::path::PathBuf;
 
 /// Closed form against sphere tracing, packets against rays, threads against one: by turns in one process.
@@ -28,6 +29,9 @@ pub struct Arguments {
     /// Threads whose worth is measured against one; 1 to leave that out
     #[arg(long, value_name = "N", default_value_t = 2, value_parser = value_parser!(u16).range(1..=1024))]
     threads: u16,
+    /// Vectors of the packets on both sides: portable, avx2 or avx512, as far as this machine has them [default: the widest]
+    #[arg(long, value_name = "NAME")]
+    level: Option<Level>,
     /// Also write the table to this file, as CSV
     #[arg(long, value_name = "FILE")]
     pub csv: Option<PathBuf>,
@@ -48,6 +52,7 @@ impl Arguments {
             rounds: self.rounds.unwrap_or(rounds),
             size: self.size.unwrap_or(size),
             threads: self.threads.into(),
+            level: self.level.unwrap_or_else(Level::best),
         }
     }
 }
@@ -56,6 +61,7 @@ impl Arguments {
 mod tests {
     use super::Arguments;
     use clap::{CommandFactory, Parser};
+    use gsdf_simd::Level;
 
     fn parsed(arguments: &[&str]) -> Result<Arguments, clap::Error> {
         Arguments::try_parse_from(["race"].iter().chain(arguments))
@@ -74,6 +80,8 @@ mod tests {
         let quick = parsed(&["--quick", "--rounds", "5", "--scenes", "s2,s1"])?;
         assert_eq!((quick.rules().rounds, quick.rules().size), (5, 32));
         assert_eq!(quick.scenes, ["s2", "s1"]);
+        assert_eq!(bare.rules().level, Level::best());
+        assert_eq!(parsed(&["--level", "portable"])?.rules().level, Level::PORTABLE);
         Ok(())
     }
 
@@ -84,6 +92,7 @@ mod tests {
             (["--size", "7"], "8..=1024"),
             (["--scenes", "s1,s9"], "s9"),
             (["--threads", "none"], "none"),
+            (["--level", "mmx"], "portable"),
             (["--turns", "3"], "--turns"),
         ] {
             let error = parsed(&arguments).expect_err("a bad value");

@@ -6,6 +6,7 @@ use crate::frame::{Frame, Wrong};
 use crate::stats::Estimate;
 use anyhow::{Context, Result};
 use gsdf_demo::scenes::Scene;
+use gsdf_simd::Level;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use std::time::{Duration, Instant};
 
@@ -25,6 +26,8 @@ pub struct Rules {
     pub size: u32,
     /// The threads whose worth is measured against one.
     pub threads: usize,
+    /// The level at which packets are cast and traced.
+    pub level: Level,
 }
 
 impl Rules {
@@ -55,6 +58,8 @@ pub struct Outcome {
     pub scene: &'static str,
     /// How many leaves it has.
     pub leaves: usize,
+    /// The level of the packets.
+    pub level: Level,
     /// The pixels along each side of its picture.
     pub size: u32,
     /// The share of its pixels that show something.
@@ -149,7 +154,7 @@ pub fn thread_ceiling(pools: &Pools) -> f64 {
 pub fn race(scene: &Scene, rules: &Rules, pools: &Pools, finished: &mut impl FnMut(&Outcome) -> Result<()>) -> Result<()> {
     let alone = |contender| Side { contender, threads: 1 };
     let size = rules.size_for(scene.program()?.leaves());
-    let arena = Arena::new(scene, size)?;
+    let arena = Arena::new(scene, size)?.at_level(rules.level);
     for (a, b) in [
         // Against itself: how far from 1 this machine puts two sides that are equal.
         (Contender::ClosedPackets, Contender::ClosedPackets),
@@ -161,7 +166,7 @@ pub fn race(scene: &Scene, rules: &Rules, pools: &Pools, finished: &mut impl FnM
     }
     if rules.threads > 1 {
         // 64 times the pixels: what is measured is a picture worth sharing.
-        let larger = Arena::new(scene, 8 * size)?;
+        let larger = Arena::new(scene, 8 * size)?.at_level(rules.level);
         let shared = Side {
             contender: Contender::ClosedPackets,
             threads: rules.threads,
@@ -195,6 +200,7 @@ fn one_race(arena: &Arena<'_>, a: Side, b: Side, rounds: u32, pools: &Pools) -> 
     Outcome {
         scene: arena.name,
         leaves: arena.program.leaves(),
+        level: arena.level,
         size: arena.raster.width(),
         hit_rate: frame.hit_rate(),
         a,
@@ -227,6 +233,7 @@ mod tests {
     use super::{Pools, Rules, race, thread_ceiling};
     use anyhow::Result;
     use gsdf_demo::scenes;
+    use gsdf_simd::Level;
 
     #[test]
     fn a_race_has_an_outcome_for_every_pair() -> Result<()> {
@@ -234,6 +241,7 @@ mod tests {
             rounds: 2,
             size: 16,
             threads: 2,
+            level: Level::best(),
         };
         let mut outcomes = Vec::new();
         race(&scenes::s1(), &rules, &Pools::new(rules.threads)?, &mut |outcome| {
@@ -263,6 +271,7 @@ mod tests {
             rounds: 1,
             size: 512,
             threads: 1,
+            level: Level::PORTABLE,
         };
         assert_eq!([2, 64, 4096].map(|leaves| rules.size_for(leaves)), [512, 256, 128]);
         assert_eq!(Rules { size: 16, ..rules }.size_for(4096), 8);

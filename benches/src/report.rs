@@ -9,16 +9,20 @@ use std::fmt::Write;
 /// What stands above the table: everything that must be known to repeat it.
 #[must_use]
 pub fn head(machine: &Machine, rules: &Rules, ceiling: f64) -> String {
-    let Rules { rounds, threads, .. } = rules;
+    let Rules {
+        rounds, threads, level, ..
+    } = rules;
     format!(
         "{machine}\n\
          threads   {threads} do {ceiling:.2} times the work of one here and now, at a loop without memory: the ceiling of any picture\n\
          rules     {rounds} rounds, A and B by turns in one process; medians; intervals of the ratios from order statistics\n\
+         level     {level}: packets of {} rays\n\
          closed    every leaf of every ray; distance, normal and leaf stored\n\
          marcher   every leaf at every step; distance stored; epsilon {EPSILON:e} relative, {MAX_STEPS} steps, the faster relaxation,\n          \
          ends just beyond the farthest thing in the picture\n\
          wrong     pixels where the marcher hits and the closed form does not + misses + depths off by more than {DEPTH_TOLERANCE:e}\n\
-         seeds     none: each ray goes through the centre of its pixel\n"
+         seeds     none: each ray goes through the centre of its pixel\n",
+        level.lanes()
     )
 }
 
@@ -67,7 +71,7 @@ fn side(side: Side) -> String {
 
 /// The first line of the CSV.
 pub const CSV_HEAD: &str = "date,processor,processor_threads,load,os,compiler,target,opt_level,flags,target_features,thread_ceiling,\
-scene,leaves,size,hit_rate,a,a_threads,b,b_threads,rounds,a_ns_per_pixel,b_ns_per_pixel,ratio,ratio_low,ratio_high,coverage,\
+scene,leaves,level,size,hit_rate,a,a_threads,b,b_threads,rounds,a_ns_per_pixel,b_ns_per_pixel,ratio,ratio_low,ratio_high,coverage,\
 relaxation,false_hits,false_misses,misplaced";
 
 /// One outcome as a line of CSV, which needs no other to be understood.
@@ -89,6 +93,7 @@ pub fn csv_line(machine: &Machine, ceiling: f64, outcome: &Outcome) -> String {
         ceiling.to_string(),
         outcome.scene.to_owned(),
         outcome.leaves.to_string(),
+        outcome.level.to_string(),
         outcome.size.to_string(),
         outcome.hit_rate.to_string(),
         outcome.a.contender.name().to_owned(),
@@ -127,12 +132,14 @@ mod tests {
     use crate::machine::Machine;
     use crate::race::{Outcome, Rules, Side};
     use crate::stats::Estimate;
+    use gsdf_simd::Level;
 
     fn outcome() -> Outcome {
         let alone = |contender| Side { contender, threads: 1 };
         Outcome {
             scene: "s1",
             leaves: 2,
+            level: Level::PORTABLE,
             size: 64,
             hit_rate: 0.75,
             a: alone(Contender::ClosedPackets),
@@ -189,8 +196,10 @@ mod tests {
             rounds: 15,
             size: 64,
             threads: 2,
+            level: Level::PORTABLE,
         };
         let head = head(&Machine::here(), &rules, 1.97);
         assert!(head.contains("15 rounds") && head.contains("2 do 1.97 times"), "{head}");
+        assert!(head.contains("portable: packets of 8 rays"), "{head}");
     }
 }

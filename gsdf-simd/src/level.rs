@@ -71,13 +71,17 @@ impl Level {
     /// Where it names none of this machine's.
     #[cfg(feature = "std")]
     pub fn chosen() -> Result<Self, LevelError> {
-        match std::env::var_os("GSDF_LEVEL") {
-            Some(name) if !name.is_empty() => {
-                let name = name.to_string_lossy();
-                name.parse().map_err(|_| LevelError::Variable(name.into_owned()))
-            }
-            _ => Ok(Self::best()),
+        Self::of_variable(&std::env::var_os("GSDF_LEVEL").unwrap_or_default())
+    }
+
+    /// The level that the variable has for its value.
+    #[cfg(feature = "std")]
+    fn of_variable(value: &std::ffi::OsStr) -> Result<Self, LevelError> {
+        if value.is_empty() {
+            return Ok(Self::best());
         }
+        let name = value.to_string_lossy();
+        name.parse().map_err(|_| LevelError::Variable(name.into_owned()))
     }
 
     /// What the level is called.
@@ -176,7 +180,7 @@ impl fmt::Display for LevelError {
 
 impl core::error::Error for LevelError {}
 
-#[cfg(test)]
+#[cfg(all(test, feature = "std"))]
 mod tests {
     use super::{Level, LevelError};
 
@@ -199,8 +203,18 @@ mod tests {
     }
 
     #[test]
+    fn a_variable_that_is_not_set_leaves_the_best() {
+        assert_eq!(Level::of_variable("".as_ref()), Ok(Level::best()));
+        for level in Level::available() {
+            assert_eq!(Level::of_variable(level.name().as_ref()), Ok(level));
+        }
+    }
+
+    #[test]
     fn what_the_machine_lacks_is_refused_with_what_it_has() {
-        let message = LevelError::Variable("mmx".into()).to_string();
+        let error = Level::of_variable("mmx".as_ref()).unwrap_err();
+        assert_eq!(error, LevelError::Variable("mmx".into()));
+        let message = error.to_string();
         assert!(message.contains("GSDF_LEVEL is `mmx`"), "{message}");
         for level in Level::available() {
             assert!(message.contains(level.name()), "{message}");

@@ -1,7 +1,7 @@
-//! Packets of eight rays through the formulas of [`gsdf_nostd`].
+//! Packets of rays through the formulas of [`gsdf_nostd`].
 //!
 //! There is no formula in this crate: [`F32x8`] implements [`gsdf_nostd::Real`], and the text that computes one ray
-//! computes eight. Each lane gets the bits that the scalar query gets, on every target.
+//! computes eight. Each lane gets the bits that the scalar query gets, on every target and at every [level](Level).
 //!
 //! ```
 //! use glam::{Vec3, vec3};
@@ -18,7 +18,48 @@
 //! ```
 //!
 //! Without the feature `std` (on by default) the crate is `no_std` and does not allocate: packets and their queries.
-//! With it come [prepared scenes](Scene) and whole pictures of them on all cores ([`Renderer`]).
+//! With it come [prepared scenes](Scene) and whole pictures of them on all cores ([`Renderer`]), and on x86-64 the vectors
+//! that the processor turns out to have.
+//!
+//! # Levels
+//! A build for any x86-64 processor may only use SSE2. Renderers ask the processor what it has and run code that was
+//! compiled for that: with AVX2 eight rays in one register, with AVX-512 sixteen. [`Level`] tells which, and
+//! [`Renderer::at_level`] takes another. Code of one's own is written once over [`Lanes`] and runs at any level:
+//!
+//! ```
+//! use gsdf_nostd::{Span, Sphere, V3, csg};
+//! use gsdf_simd::{Lanes, Level, Packet, Work};
+//!
+//! csg! { const BALL = Sphere::new(glam::Vec3::ZERO, 1.0) }
+//!
+//! /// Distances to the ball along rays that start at these heights and go downward.
+//! struct Soundings<'a>(&'a mut [f32]);
+//!
+//! impl Work for Soundings<'_> {
+//!     type Output = ();
+//!
+//!     fn run<T: Lanes>(self, token: T::Token) {
+//!         T::vectorize(token, #[inline(always)] || sound::<T>(token, self.0));
+//!     }
+//! }
+//!
+//! #[inline(always)]
+//! fn sound<T: Lanes>(token: T::Token, heights: &mut [f32]) {
+//!     let (zero, one) = (T::splat(token, 0.0), T::splat(token, 1.0));
+//!     let mut spans = [Span::empty_like(zero)];
+//!     for heights in heights.chunks_mut(T::LANES) {
+//!         let (from, down) = (V3::new(zero, T::load(token, heights), zero), V3::new(zero, -one, zero));
+//!         let packet = Packet::from_lanes(from, down, zero, T::splat(token, f32::INFINITY));
+//!         if let Ok(distances) = packet.gsdf(&BALL.program(), &mut spans) {
+//!             distances.store(heights);
+//!         }
+//!     }
+//! }
+//!
+//! let mut heights = [3.0; 21];
+//! Level::best().run(Soundings(&mut heights));
+//! assert_eq!(heights, [2.0; 21]);
+//! ```
 #![cfg_attr(not(feature = "std"), no_std)]
 #![forbid(unsafe_code)]
 

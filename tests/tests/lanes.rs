@@ -1,6 +1,6 @@
 //! Lane types beyond their arithmetic: how numbers get into lanes and out again, on every level the machine has.
 
-use gsdf_nostd::{Mask, Real};
+use gsdf_nostd::Mask;
 use gsdf_simd::{LaneMask, Lanes, Level, MOST_LANES, Work};
 
 /// What a lane type does with the numbers of a slice.
