@@ -3,7 +3,7 @@
 use crate::arena::Arena;
 use crate::frame::Frame;
 use gsdf_nostd::{Ray, Span};
-use gsdf_simd::{Image, Lanes, MOST_LANES, Packet, Pixel, Work};
+use gsdf_simd::{Lanes, MOST_LANES, Packet, Pixel, Records, Renderer, Scene, Work};
 use rayon::prelude::*;
 
 /// Who renders.
@@ -12,7 +12,7 @@ use rayon::prelude::*;
 /// off with the distance. All work in bands of 16 rows on the threads of the current pool.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Contender {
-    /// Closed form, as many rays at once as the level has lanes: [`Image`].
+    /// Closed form, as many rays at once as the level has lanes: [`Renderer`].
     ClosedPackets,
     /// Closed form, ray by ray: [`Program::along`](gsdf_nostd::Program::along) and `cast`.
     ClosedRays,
@@ -51,9 +51,9 @@ impl Contender {
         let width = arena.raster.width() as usize;
         match self {
             Self::ClosedPackets => {
-                Image::new(arena.program, arena.raster)
-                    .at_level(arena.level)
-                    .render(frame.pixels.as_mut_slice());
+                let scene = Scene::new(arena.program);
+                let (width, height) = (arena.raster.width(), arena.raster.height());
+                Renderer::at_level(&scene, arena.raster, arena.level).render(Records::new(&mut frame.pixels, width, height));
             }
             Self::ClosedRays => in_bands(
                 &mut frame.pixels,
@@ -70,7 +70,7 @@ impl Contender {
     }
 }
 
-/// Renders row by row, in bands like those of [`Image`], with something of its own for each thread.
+/// Renders row by row, in bands like those of [`Renderer`], with something of its own for each thread.
 fn in_bands<P: Send, S>(
     plane: &mut [P],
     width: usize,

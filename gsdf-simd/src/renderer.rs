@@ -5,22 +5,26 @@ use crate::level::{Level, Work};
 use crate::scene::{Scene, View};
 use crate::target::{Target, Wants};
 use crate::tile::{TILE_SIDE, Tile, Workspace, cast};
+use core::iter::Sum;
 use core::marker::PhantomData;
 use core::ops::Range;
 use gsdf_nostd::{Raster, Solid};
+use std::sync::{Mutex, PoisonError};
 
 /// Renders pictures of a scene, tile by tile: what a tile's rays cannot meet is never looked at.
 ///
 /// Every pixel has the bits that a ray by itself finds with [`Program::along`](gsdf_nostd::Program::along), whatever was
 /// left out, at every level and on any number of threads.
 ///
-/// It keeps the memory it works in: pictures after the first allocate nothing, as long as they are no larger.
+/// It keeps the memory it works in: pictures after the first allocate nothing, on no more threads than before.
 pub struct Renderer<'s, 'a, L: Solid> {
     view: View<'s, 'a, L>,
     level: Level,
-    /// One for each row of tiles.
-    rows: Vec<Box<dyn Row<L> + 's>>,
+    /// What the threads work in, as long as none does.
+    idle: Mutex<Vec<Worker<'s, L>>>,
 }
+
+type Worker<'s, L> = Box<dyn Row<L> + 's>;
 
 /// What a picture took.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -42,6 +46,12 @@ impl Effort {
     }
 }
 
+impl Sum for Effort {
+    fn sum<I: Iterator<Item = Self>>(efforts: I) -> Self {
+        efforts.fold(Self::default(), Self::joined)
+    }
+}
+
 impl<'s, 'a, L> Renderer<'s, 'a, L>
 where
     L: Solid<Seen<f32>: Send + Sync> + Send + Sync + 's,
@@ -55,13 +65,11 @@ where
     /// The same at another level; the pixels are the same.
     #[must_use]
     pub fn at_level(scene: &'s Scene<'a, L>, raster: Raster, level: Level) -> Self {
-        let mut renderer = Self {
+        Self {
             view: View::new(scene, raster),
             level,
-            rows: Vec::new(),
-        };
-        renderer.make_room();
-        renderer
+            idle: Mutex::new(Vec::new()),
+        }
     }
 
     /// The level at which it renders.
@@ -73,53 +81,43 @@ where
     /// Looks through another raster from now on.
     pub fn look(&mut self, raster: Raster) {
         self.view.look(raster);
-        self.make_room();
-    }
-
-    fn make_room(&mut self) {
-        while self.rows.len() < self.height() {
-            self.rows.push(self.level.run(MakeRow(PhantomData)));
-        }
-    }
-
-    /// How many rows of tiles there are.
-    fn height(&self) -> usize {
-        (self.view.raster.height() as usize).div_ceil(TILE_SIDE)
     }
 
     /// Casts a ray through the centre of every pixel, on the threads of the current `rayon` pool. The pixels do not
     /// depend on their number.
     pub fn render<T: Target>(&mut self, target: T) -> Effort {
-        let height = self.height();
-        match self.rows.get_mut(..height) {
-            Some(rows) => render_rows(&self.view, target, 0..height, rows),
-            None => Effort::default(),
+        let rows = (self.view.raster.height() as usize).div_ceil(TILE_SIDE);
+        let workers = rayon::current_num_threads().min(rows);
+        let idle = self.idle.get_mut().unwrap_or_else(PoisonError::into_inner);
+        while idle.len() < workers {
+            idle.push(self.level.run(MakeWorker(PhantomData)));
         }
+        self.render_rows(target, 0..rows)
     }
-}
 
-/// Renders rows of tiles, on as many threads as there are; `work` has one workspace for each.
-fn render_rows<'s, C: Target, L>(view: &View<'_, '_, L>, mut target: C, rows: Range<usize>, work: &mut [Box<dyn Row<L> + 's>]) -> Effort
-where
-    L: Solid<Seen<f32>: Send + Sync> + Send + Sync,
-{
-    match work {
-        [] => Effort::default(),
-        [only] => {
-            let wants = target.wants();
-            only.render(view, rows.start, wants, &mut target)
+    /// Renders rows of tiles, on as many threads as there are.
+    fn render_rows<T: Target>(&self, mut target: T, rows: Range<usize>) -> Effort {
+        if rows.len() <= 1 {
+            return rows.map(|row| self.render_row(&mut target, row)).sum();
         }
-        _ => {
-            let half = work.len() / 2;
-            let middle = rows.start + half;
-            let (above, below) = target.split_at((half * TILE_SIDE) as u32);
-            let (work_above, work_below) = work.split_at_mut(half);
-            let (above, below) = rayon::join(
-                || render_rows(view, above, rows.start..middle, work_above),
-                || render_rows(view, below, middle..rows.end, work_below),
-            );
-            above.joined(below)
-        }
+        let half = rows.len() / 2;
+        let middle = rows.start + half;
+        let (above, below) = target.split_at((half * TILE_SIDE) as u32);
+        let (above, below) = rayon::join(
+            || self.render_rows(above, rows.start..middle),
+            || self.render_rows(below, middle..rows.end),
+        );
+        above.joined(below)
+    }
+
+    fn render_row<T: Target>(&self, target: &mut T, row: usize) -> Effort {
+        let idle = || self.idle.lock().unwrap_or_else(PoisonError::into_inner);
+        // The last one that was given back is the one whose memory is still in a cache.
+        let worker = idle().pop();
+        let mut worker = worker.unwrap_or_else(|| self.level.run(MakeWorker(PhantomData)));
+        let effort = worker.render(&self.view, row, target.wants(), target);
+        idle().push(worker);
+        effort
     }
 }
 
@@ -129,11 +127,11 @@ trait Row<L: Solid>: Send {
     fn render(&mut self, view: &View<'_, '_, L>, row: usize, wants: Wants, target: &mut dyn PutTiles) -> Effort;
 }
 
-/// Makes a [`Row`] for the lanes of a level.
-struct MakeRow<'s, L>(PhantomData<(&'s (), L)>);
+/// Makes a [`Worker`] for the lanes of a level.
+struct MakeWorker<'s, L>(PhantomData<(&'s (), L)>);
 
-impl<'s, L: Solid + Send + Sync + 's> Work for MakeRow<'s, L> {
-    type Output = Box<dyn Row<L> + 's>;
+impl<'s, L: Solid + Send + Sync + 's> Work for MakeWorker<'s, L> {
+    type Output = Worker<'s, L>;
 
     fn run<T: Lanes>(self, token: T::Token) -> Self::Output {
         Box::new(RowOf {

@@ -152,12 +152,14 @@ pub struct Records<'p> {
 }
 
 impl<'p> Records<'p> {
-    /// The records of a picture of this width. A last row that is not full is left as it is.
+    /// The records of a picture of this size. Those beyond it, and a last row that is not whole, are left as they are.
     #[must_use]
-    pub fn new(pixels: &'p mut [Pixel], width: u32) -> Self {
+    pub fn new(pixels: &'p mut [Pixel], width: u32, height: u32) -> Self {
+        let width = width as usize;
+        let held = width.saturating_mul(height as usize).min(pixels.len());
         Self {
-            pixels,
-            width: (width as usize).max(1),
+            pixels: pixels.get_mut(..held).unwrap_or_default(),
+            width: width.max(1),
         }
     }
 }
@@ -198,6 +200,8 @@ pub struct Planes<'p> {
     pub stride: usize,
     /// The width of the picture.
     pub width: u32,
+    /// The height of the picture.
+    pub height: u32,
 }
 
 impl Target for Planes<'_> {
@@ -229,20 +233,25 @@ impl Target for Planes<'_> {
             }
             None => (None, None),
         };
-        let of = |distance, normal, leaf| Planes {
+        let of = |distance, normal, leaf, height| Planes {
             distance,
             normal,
             leaf,
             stride,
             width: self.width,
+            height,
         };
-        (of(distance, normal, leaf), of(distance_below, normal_below, leaf_below))
+        let above = row.min(self.height);
+        (
+            of(distance, normal, leaf, above),
+            of(distance_below, normal_below, leaf_below, self.height - above),
+        )
     }
 
     fn put(&mut self, x: u32, y: u32, tile: &Tile) {
         let count = (self.width as usize).saturating_sub(x as usize).min(TILE_SIDE);
         let stride = self.stride.max(1);
-        for row in 0..TILE_SIDE {
+        for row in 0..(self.height.saturating_sub(y) as usize).min(TILE_SIDE) {
             let start = (y as usize + row) * stride + x as usize;
             copy(&tile.distance, row, count, self.distance, start);
             if let Some(planes) = &mut self.normal {

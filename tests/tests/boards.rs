@@ -28,7 +28,7 @@ fn scenes_in_packets() {
     for scene in SCENES {
         let mut pixels = vec![Pixel::NOTHING; (scene.side * scene.side) as usize];
         let prepared = Prepared::new(scene.program);
-        Renderer::new(&prepared, scene.raster().unwrap()).render(Records::new(&mut pixels, scene.side));
+        Renderer::new(&prepared, scene.raster().unwrap()).render(Records::new(&mut pixels, scene.side, scene.side));
         check(scene.name, hash(&pixels));
     }
 }

@@ -27,7 +27,7 @@ fn packets(scene: &scenes::Scene, level: Level, threads: usize) -> Vec<Pixel> {
     let prepared = Scene::new(scene.program().unwrap());
     let mut renderer = Renderer::at_level(&prepared, scene.camera.raster(SIZE, SIZE), level);
     let pool = ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-    pool.install(|| renderer.render(Records::new(&mut pixels, SIZE)));
+    pool.install(|| renderer.render(Records::new(&mut pixels, SIZE, SIZE)));
     pixels
 }
 

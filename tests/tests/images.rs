@@ -100,7 +100,7 @@ fn records_are_the_scalar_pixels_on_any_number_of_threads() {
                 expected.len()
             ];
             let mut renderer = Renderer::at_level(&scene, *raster, level);
-            let effort = on_threads(threads, || renderer.render(Records::new(&mut pixels, raster.width())));
+            let effort = on_threads(threads, || renderer.render(Records::new(&mut pixels, raster.width(), raster.height())));
             assert_same(&pixels, &expected, raster);
             assert_eq!(effort.hits, hits as u64);
         }
@@ -128,6 +128,7 @@ fn planes_are_the_same_pixels_and_nothing_between_rows_is_touched() {
                 leaf: Some(&mut leaf),
                 stride,
                 width: raster.width(),
+                height: raster.height(),
             };
             let mut renderer = Renderer::at_level(&scene, *raster, level);
             on_threads(threads, || renderer.render(planes));
@@ -170,6 +171,7 @@ fn planes_that_are_not_wanted_are_left_out() {
                 leaf: with_leaves.then_some(&mut leaf),
                 stride,
                 width: raster.width(),
+                height: raster.height(),
             });
             for (index, pixel) in expected.iter().enumerate() {
                 assert_eq!(distance[index].to_bits(), pixel.distance.to_bits());
@@ -275,7 +277,7 @@ fn no_target_is_written_beyond_picture_or_end() {
             ..Pixel::NOTHING
         };
         let mut pixels = vec![untouched; room];
-        Renderer::new(&scene, raster).render(Records::new(&mut pixels, 21));
+        Renderer::new(&scene, raster).render(Records::new(&mut pixels, 21, 35));
         // Whole rows, and no more than there are.
         let held = (room / 21 * 21).min(expected.len());
         assert_same(&pixels[..held], &expected[..held], &raster);
@@ -283,7 +285,7 @@ fn no_target_is_written_beyond_picture_or_end() {
     }
     for (width, height) in [(0, 0), (0, 5), (5, 0)] {
         let mut renderer = Renderer::new(&scene, cameras()[1].raster(width, height));
-        let effort = renderer.render(Records::new(&mut [Pixel::NOTHING; 9], width));
+        let effort = renderer.render(Records::new(&mut [Pixel::NOTHING; 9], width, height));
         assert_eq!(effort, Effort::default());
     }
 }
@@ -301,7 +303,7 @@ fn a_renderer_looks_again() {
             let raster = camera.raster(width, height);
             renderer.look(raster);
             let mut pixels = vec![Pixel::NOTHING; (width * height) as usize];
-            renderer.render(Records::new(&mut pixels, width));
+            renderer.render(Records::new(&mut pixels, width, height));
             assert_same(&pixels, &scalar(&program, &raster), &raster);
         }
     }

@@ -105,7 +105,7 @@ fn random_programs() {
         check(&program, &raster, &format!("seed {seed}"))
     });
     let shown = shown.reduce(Shown::default, Shown::joined);
-    assert!(shown.pictures > 1000 && shown.hits > 50_000 && shown.misses > 50_000, "{shown:?}");
+    assert!(shown.pictures > 1000 && shown.hits > 30_000 && shown.misses > 100_000, "{shown:?}");
 }
 
 /// A number on a coarse grid, so that surfaces meet and coincide.
