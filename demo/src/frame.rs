@@ -93,10 +93,7 @@ impl Target for FrameRows<'_> {
     fn split_at(self, row: u32) -> (Self, Self) {
         let start = (row as usize * self.width).min(self.pixels.len());
         let (above, below) = self.pixels.split_at_mut(start);
-        let of = |pixels| FrameRows {
-            width: self.width,
-            pixels,
-        };
+        let of = |pixels| FrameRows { width: self.width, pixels };
         (of(above), of(below))
     }
 

@@ -81,6 +81,7 @@ pub use lanes::{F32x8, LaneMask, Lanes, MOST_LANES, Mask8};
 pub use level::{Level, LevelError, Work};
 #[cfg(feature = "std")]
 pub use packet::scratch;
+pub use packet::{EMPTY, Hits, Packet};
 #[cfg(feature = "std")]
 pub use renderer::{Effort, Renderer};
 #[cfg(feature = "std")]
@@ -89,4 +90,3 @@ pub use scene::Scene;
 pub use target::{Planes, Records, Target, Tiles, TilesMut, Wants};
 #[cfg(feature = "std")]
 pub use tile::{Pixel, TILE_PIXELS, TILE_SIDE, Tile};
-pub use packet::{EMPTY, Hits, Packet};

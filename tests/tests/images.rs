@@ -100,7 +100,9 @@ fn records_are_the_scalar_pixels_on_any_number_of_threads() {
                 expected.len()
             ];
             let mut renderer = Renderer::at_level(&scene, *raster, level);
-            let effort = on_threads(threads, || renderer.render(Records::new(&mut pixels, raster.width(), raster.height())));
+            let effort = on_threads(threads, || {
+                renderer.render(Records::new(&mut pixels, raster.width(), raster.height()))
+            });
             assert_same(&pixels, &expected, raster);
             assert_eq!(effort.hits, hits as u64);
         }
@@ -253,7 +255,9 @@ fn a_target_of_ones_own_gets_every_pixel_once() {
             on_threads(threads, || renderer.render(Screen(&mut bytes)));
             for (row, bytes) in bytes.chunks(Screen::STRIDE).enumerate() {
                 let width = raster.width() as usize;
-                let shown = expected[row * width..][..width].iter().map(|pixel| pixel.leaf.wrapping_add(1) as u8);
+                let shown = expected[row * width..][..width]
+                    .iter()
+                    .map(|pixel| pixel.leaf.wrapping_add(1) as u8);
                 assert_eq!(bytes[..Screen::MARGIN], [99; Screen::MARGIN]);
                 let found = &bytes[Screen::MARGIN..][..width];
                 assert!(found.iter().copied().eq(shown), "row {row} of {raster:?}");
@@ -281,7 +285,10 @@ fn no_target_is_written_beyond_picture_or_end() {
         // Whole rows, and no more than there are.
         let held = (room / 21 * 21).min(expected.len());
         assert_same(&pixels[..held], &expected[..held], &raster);
-        assert!(pixels[expected.len().min(room)..].iter().all(|pixel| *pixel == untouched), "room for {room}");
+        assert!(
+            pixels[expected.len().min(room)..].iter().all(|pixel| *pixel == untouched),
+            "room for {room}"
+        );
     }
     for (width, height) in [(0, 0), (0, 5), (5, 0)] {
         let mut renderer = Renderer::new(&scene, cameras()[1].raster(width, height));

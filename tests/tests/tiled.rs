@@ -3,9 +3,7 @@
 //! surfaces and far away; poses; solids and complements without bounds; parts that are products and parts that are not.
 
 use glam::{Mat3, Vec3, vec3};
-use gsdf_nostd::{
-    Camera, CappedCylinder, Cone, Cuboid, Cylinder, HalfSpace, Leaf, Node, Program, Raster, Span, Sphere, Transform,
-};
+use gsdf_nostd::{Camera, CappedCylinder, Cone, Cuboid, Cylinder, HalfSpace, Leaf, Node, Program, Raster, Span, Sphere, Transform};
 use gsdf_simd::{Level, Pixel, Renderer, Scene, Tiles};
 use gsdf_tests::conformance::packet::Composed;
 use gsdf_tests::shape::unit;
@@ -120,9 +118,13 @@ fn solid(rng: &mut Pcg64, at: Vec3) -> Leaf {
         6..12 => Cuboid::new(at, at + Vec3::splat(size)).unwrap().into(),
         12..16 => {
             let axis = [Vec3::X, Vec3::Y, Vec3::Z][rng.random_range(0..3)];
-            CappedCylinder::new(at - axis * size, at + axis * size, axis, 0.5 * size).unwrap().into()
+            CappedCylinder::new(at - axis * size, at + axis * size, axis, 0.5 * size)
+                .unwrap()
+                .into()
         }
-        16..18 => Cone::new(at + Vec3::Y * size, at - Vec3::Y * size, Vec3::NEG_Y, size).unwrap().into(),
+        16..18 => Cone::new(at + Vec3::Y * size, at - Vec3::Y * size, Vec3::NEG_Y, size)
+            .unwrap()
+            .into(),
         18 => HalfSpace::new(at, unit(rng).as_vec3()).unwrap().into(),
         _ => Cylinder::new(at, Vec3::Z, 0.25 * size).unwrap().into(),
     }
@@ -154,7 +156,11 @@ fn scattered(rng: &mut Pcg64, parts: usize, reach: i32) -> Vec<Node> {
                 let many = rng.random_range(0..20) == 0;
                 for _ in 0..if many { rng.random_range(60..150) } else { rng.random_range(1..6) } {
                     nodes.push(leaf(rng, &mut earlier));
-                    nodes.push(if rng.random_range(0..6) == 0 { Node::Intersection } else { Node::Difference });
+                    nodes.push(if rng.random_range(0..6) == 0 {
+                        Node::Intersection
+                    } else {
+                        Node::Difference
+                    });
                 }
             }
             8 => {

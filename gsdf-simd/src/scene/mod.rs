@@ -13,8 +13,8 @@ pub(crate) use view::View;
 use core::ops::Range;
 use gsdf_nostd::{Node, Program, Solid};
 use reach::Reach;
-use tree::order;
 use split::{Factor, Starts, Subtree, parts, product};
+use tree::order;
 
 /// A program prepared for many rays, once, whatever the camera.
 ///
@@ -91,8 +91,7 @@ impl<'a, L: Solid> Scene<'a, L> {
         let boxes: Vec<Reach> = (subtrees.iter())
             .map(|part| Reach::of_nodes(&program, nodes.get(part.nodes.clone()).unwrap_or_default()))
             .collect();
-        let (bounded, everywhere): (Vec<u32>, Vec<u32>) =
-            order(&boxes).into_iter().partition(|&part| !is_everywhere(&boxes, part));
+        let (bounded, everywhere): (Vec<u32>, Vec<u32>) = order(&boxes).into_iter().partition(|&part| !is_everywhere(&boxes, part));
         let sorted: Vec<Reach> = bounded.iter().filter_map(|&part| boxes.get(part as usize)).copied().collect();
         let mut scene = Self {
             program,

@@ -85,7 +85,11 @@ impl Reach {
         let crosses = [rows[1].cross(rows[2]), rows[2].cross(rows[0]), rows[0].cross(rows[1])];
         let columns = crosses.map(|cross| cross.scaled(1.0 / rows[0].dot(crosses[0])));
         let of = |coordinates: [f64; 3]| {
-            let [x, y, z] = [columns[0].scaled(coordinates[0]), columns[1].scaled(coordinates[1]), columns[2].scaled(coordinates[2])];
+            let [x, y, z] = [
+                columns[0].scaled(coordinates[0]),
+                columns[1].scaled(coordinates[1]),
+                columns[2].scaled(coordinates[2]),
+            ];
             x + y + z
         };
         let reach = |coordinates: [f64; 3]| {
@@ -123,7 +127,9 @@ impl Reach {
                 }
                 _ => {
                     let (second, first) = (stack.pop(), stack.pop());
-                    let (Some(first), Some(second)) = (first, second) else { return Self::EVERYWHERE };
+                    let (Some(first), Some(second)) = (first, second) else {
+                        return Self::EVERYWHERE;
+                    };
                     match node {
                         Node::Union => first.joined(second),
                         Node::Intersection => first.common(second),

@@ -1,7 +1,7 @@
 //! A program taken apart: at its unions into parts, and each part into what must be inside and what must not.
 
-use gsdf_nostd::Node;
 use core::ops::Range;
+use gsdf_nostd::Node;
 
 /// A range of nodes that make a solid, with the numbers of its leaves.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -199,12 +199,16 @@ mod tests {
             Node::Difference,
         ];
         let found = product(&nodes, &Starts::of(&nodes), &whole(&nodes)).unwrap();
-        let expected = [(0, 0, false), (1, 1, true), (2, 2, false), (7, 3, true)].map(|(node, leaf, negative)| Factor { node, leaf, negative });
+        let expected =
+            [(0, 0, false), (1, 1, true), (2, 2, false), (7, 3, true)].map(|(node, leaf, negative)| Factor { node, leaf, negative });
         assert_eq!(found, expected);
 
         let union_within = [leaf(), leaf(), leaf(), Node::Union, Node::Intersection];
         assert_eq!(product(&union_within, &Starts::of(&union_within), &whole(&union_within)), None);
         let difference_without = [leaf(), leaf(), leaf(), Node::Difference, Node::Difference];
-        assert_eq!(product(&difference_without, &Starts::of(&difference_without), &whole(&difference_without)), None);
+        assert_eq!(
+            product(&difference_without, &Starts::of(&difference_without), &whole(&difference_without)),
+            None
+        );
     }
 }

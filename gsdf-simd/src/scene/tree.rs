@@ -142,7 +142,9 @@ mod tests {
 
     #[test]
     fn every_box_is_in_its_place_and_in_the_boxes_above() {
-        let boxes: Vec<_> = (0..1000_u16).map(|i| at(f32::from(i % 10), f32::from(i / 10 % 10), f32::from(i / 100))).collect();
+        let boxes: Vec<_> = (0..1000_u16)
+            .map(|i| at(f32::from(i % 10), f32::from(i / 10 % 10), f32::from(i / 100)))
+            .collect();
         let order = order(&boxes);
         let sorted: Vec<_> = order.iter().map(|&number| boxes[number as usize]).collect();
         let tree = Tree::new(&sorted);
@@ -168,7 +170,9 @@ mod tests {
 
     #[test]
     fn the_order_keeps_cubes_of_neighbours_together() {
-        let boxes: Vec<_> = (0..4096_u16).map(|i| at(f32::from(i % 16), f32::from(i / 16 % 16), f32::from(i / 256))).collect();
+        let boxes: Vec<_> = (0..4096_u16)
+            .map(|i| at(f32::from(i % 16), f32::from(i / 16 % 16), f32::from(i / 256)))
+            .collect();
         let order = order(&boxes);
         for sixteen in order.chunks(16) {
             let centers = || sixteen.iter().map(|&number| boxes[number as usize].center);

@@ -97,7 +97,9 @@ impl<'v, 'a, L: Solid> Asked<'v, 'a, L> {
 
     #[inline(always)]
     fn ask(&mut self, view: &'v View<'_, 'a, L>, number: u32) {
-        let Some((place, literal)) = view.scene.literal(number) else { return };
+        let Some((place, literal)) = view.scene.literal(number) else {
+            return;
+        };
         let Some((solid, frame)) = view.scene.leaf(place) else { return };
         self.number = number;
         self.solid = Some(solid);

@@ -108,10 +108,24 @@ fn march_reduced<T: Lanes, L: Solid>(
             count += 1;
         }
         if work.spans.len() < count * leaves {
-            work.spans.resize(count * leaves, Span { enter: nothing, exit: -nothing });
+            work.spans.resize(
+                count * leaves,
+                Span {
+                    enter: nothing,
+                    exit: -nothing,
+                },
+            );
         }
         for number in 0..leaves {
-            leaf::spans(token, view, work.places[number], some, &mut work.rays, &mut work.spans[number..], leaves);
+            leaf::spans(
+                token,
+                view,
+                work.places[number],
+                some,
+                &mut work.rays,
+                &mut work.spans[number..],
+                leaves,
+            );
         }
         work.computed += (count * leaves) as u64;
 
@@ -130,7 +144,7 @@ fn march_reduced<T: Lanes, L: Solid>(
                     work.met.inside |= 1 << packet;
                 }
                 t = T::select(found.inside, nothing, t);
-                let (nearest, _) = work.met.packet(packet);
+                let nearest = work.met.nearest(packet, nothing);
                 if !(t.lt(nothing) & t.le(nearest)).any() {
                     continue;
                 }

@@ -13,11 +13,11 @@ pub use pixels::{Pixel, TILE_PIXELS, TILE_SIDE, Tile};
 pub(crate) use state::Workspace;
 
 use crate::lanes::Lanes;
-use crate::target::Wants;
 use crate::scene::{Beam, FANOUT, Form, Nearest, View};
+use crate::target::Wants;
 use core::ops::Range;
 use gsdf_nostd::Solid;
-use rays::packets_within;
+use rays::{every_packet, packets_within};
 
 /// Casts the rays through the pixels of the tile whose left upper pixel is (`x`, `y`), and tells how many hit something.
 #[inline(always)]
@@ -30,13 +30,13 @@ pub(crate) fn cast<T: Lanes, L: Solid>(
     tile: &mut Tile,
 ) -> u32 {
     let scene = view.scene;
-    work.rays
-        .aim(token, &view.raster, x, y, view.valid, scene.divides_by_components());
-    work.met.clear(token);
+    work.rays.begin([x, y]);
+    work.met.clear();
     let beam = Beam::new(&view.raster, x, y, TILE_SIDE as u32);
     work.walk.begin(scene.tree());
     let mut visits = Visits::new(scene.unbounded());
     while let Some((visit, which)) = visits.next(token, view, &beam, work) {
+        work.rays.aim(token, view, which);
         let form = match visit {
             Visit::Part(number) => scene.part(number).map(|part| (part.leaves.clone(), &part.form)),
             // Neither the split into parts nor the product holds there.
@@ -122,9 +122,4 @@ impl Visits {
         }
         None
     }
-}
-
-/// The bits of all packets of a tile.
-fn every_packet<T: Lanes>() -> u32 {
-    u32::MAX >> (u32::BITS as usize - rays::packets::<T>())
 }

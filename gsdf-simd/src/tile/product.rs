@@ -113,7 +113,7 @@ fn begin<T: Lanes, L>(which: u32, work: &mut Workspace<T, L>) -> u32 {
         bits &= bits - 1;
         let span = work.spans[place];
         let (_, _, start) = work.rays.packet(packet);
-        let (nearest, _) = work.met.packet(packet);
+        let nearest = work.met.nearest(packet, start.splat_like(f32::INFINITY));
         let enter = span.enter.max(start);
         work.spans[place].enter = enter;
         if (enter.lt(span.exit) & enter.le(nearest)).any() {

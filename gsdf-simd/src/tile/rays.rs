@@ -3,7 +3,8 @@
 use super::pixels::{BLOCK_SIDE, TILE_SIDE};
 use crate::lanes::Lanes;
 use crate::packet::{Packet, scaled};
-use gsdf_nostd::{Line, Program, Raster, Toward, V3};
+use crate::scene::View;
+use gsdf_nostd::{Line, Program, Raster, Solid, Toward, V3};
 
 /// The most packets that a tile is made of: those of eight rays.
 pub(crate) const MOST_PACKETS: usize = 32;
@@ -14,6 +15,11 @@ const COLUMNS: usize = TILE_SIDE / BLOCK_SIDE;
 /// How many packets of these lanes a tile is made of.
 pub(crate) const fn packets<T: Lanes>() -> usize {
     TILE_SIDE * TILE_SIDE / T::LANES
+}
+
+/// The bits of all packets of a tile.
+pub(crate) const fn every_packet<T: Lanes>() -> u32 {
+    u32::MAX >> (u32::BITS as usize - packets::<T>())
 }
 
 /// How many rows of pixels a packet has.
@@ -45,7 +51,7 @@ pub(crate) fn packets_within<T: Lanes>(left: f32, right: f32, top: f32, bottom: 
     (columns * 0x1111_1111) & rows
 }
 
-/// The rays of a tile.
+/// The rays of a tile, aimed where they are needed.
 #[derive(Debug)]
 pub(crate) struct Rays<T: Lanes> {
     /// The lines of the packets, in the world.
@@ -54,11 +60,22 @@ pub(crate) struct Rays<T: Lanes> {
     scales: [T; MOST_PACKETS],
     /// Where the rays start.
     starts: [T; MOST_PACKETS],
+    /// The packets that are aimed.
+    aimed: u32,
+    /// The left upper pixel of the tile.
+    corner: [u32; 2],
+    /// How far the columns and the rows of packets are from the middle of the picture, once one is aimed.
+    across: [V3<T>; COLUMNS],
+    upward: [V3<T>; MOST_PACKETS / COLUMNS],
     /// The lines in another frame, as far as `posed` says.
     local: [Line<T>; MOST_PACKETS],
     frame: u16,
     posed: u32,
 }
+
+/// Where in a packet its pixels are.
+const COLUMN_CENTERS: [f32; 16] = [0.5, 1.5, 2.5, 3.5, 0.5, 1.5, 2.5, 3.5, 0.5, 1.5, 2.5, 3.5, 0.5, 1.5, 2.5, 3.5];
+const ROW_CENTERS: [f32; 16] = [0.5, 0.5, 0.5, 0.5, 1.5, 1.5, 1.5, 1.5, 2.5, 2.5, 2.5, 2.5, 3.5, 3.5, 3.5, 3.5];
 
 impl<T: Lanes> Rays<T> {
     #[inline(always)]
@@ -73,49 +90,81 @@ impl<T: Lanes> Rays<T> {
             lines: [line; MOST_PACKETS],
             scales: [one; MOST_PACKETS],
             starts: [one; MOST_PACKETS],
+            aimed: 0,
+            corner: [0, 0],
+            across: [ones; COLUMNS],
+            upward: [ones; MOST_PACKETS / COLUMNS],
             local: [line; MOST_PACKETS],
             frame: 0,
             posed: 0,
         }
     }
 
-    /// Aims the rays through the pixels from (`x`, `y`) on. Where all are known to be `valid` none is checked; without
-    /// `components` their reciprocals are left out.
+    /// Goes on to the tile with this left upper pixel. None of its rays is aimed yet.
     #[inline(always)]
-    pub(crate) fn aim(&mut self, token: T::Token, raster: &Raster, x: u32, y: u32, valid: bool, components: bool) {
-        self.posed = 0;
-        const ACROSS: [f32; 16] = [0.5, 1.5, 2.5, 3.5, 0.5, 1.5, 2.5, 3.5, 0.5, 1.5, 2.5, 3.5, 0.5, 1.5, 2.5, 3.5];
-        const DOWN: [f32; 16] = [0.5, 0.5, 0.5, 0.5, 1.5, 1.5, 1.5, 1.5, 2.5, 2.5, 2.5, 2.5, 3.5, 3.5, 3.5, 3.5];
-        let (places, rows) = (T::load(token, &ACROSS), T::load(token, &DOWN));
-        let mut columns = [places; COLUMNS];
-        for (number, column) in columns.iter_mut().enumerate() {
-            *column = places + T::splat(token, x as f32 + (number * BLOCK_SIDE) as f32);
-        }
-        if !valid {
-            for packet in 0..packets::<T>() {
-                let down = rows + T::splat(token, y as f32 + (packet / COLUMNS * height::<T>()) as f32);
-                let through = Packet::through(raster, columns[packet % COLUMNS], down);
-                (self.lines[packet], self.scales[packet], self.starts[packet]) = through.into_parts();
-            }
+    pub(crate) fn begin(&mut self, corner: [u32; 2]) {
+        (self.corner, self.aimed, self.posed) = (corner, 0, 0);
+    }
+
+    /// Aims the rays of some packets.
+    #[inline(always)]
+    pub(crate) fn aim<L: Solid>(&mut self, token: T::Token, view: &View<'_, '_, L>, which: u32) {
+        let mut missing = which & !self.aimed;
+        if missing == 0 {
             return;
         }
-        let mut across = [raster.across(places); COLUMNS];
-        for (across, column) in across.iter_mut().zip(columns) {
-            *across = raster.across(column);
+        let raster = &view.raster;
+        if self.aimed == 0 {
+            self.aim_columns_and_rows(token, raster);
+        }
+        self.aimed |= missing;
+        if !view.valid {
+            self.aim_checked(token, raster, missing);
+            return;
         }
         // No ray starts nearer than the least normal number: see `Ray::start_on_line`.
         let earliest = T::splat(token, f32::MIN_POSITIVE);
-        for row in 0..packets::<T>() / COLUMNS {
-            let upward = raster.upward(rows + T::splat(token, y as f32 + (row * height::<T>()) as f32));
-            for (column, across) in across.into_iter().enumerate() {
-                let packet = row * COLUMNS + column;
-                let (origin, direction) = raster.line_to(across, upward);
-                let (direction, scale, length) = scaled(direction);
-                let line = &mut self.lines[packet];
-                line.origin = origin;
-                line.toward = if components { Toward::new(direction) } else { Toward::without_components(direction) };
-                (self.scales[packet], self.starts[packet]) = (scale, earliest * length);
-            }
+        let components = view.scene.divides_by_components();
+        while missing != 0 {
+            let packet = missing.trailing_zeros() as usize % MOST_PACKETS;
+            missing &= missing - 1;
+            let (origin, direction) = raster.line_to(self.across[packet % COLUMNS], self.upward[packet / COLUMNS]);
+            let (direction, scale, length) = scaled(direction);
+            let line = &mut self.lines[packet];
+            line.origin = origin;
+            line.toward = if components {
+                Toward::new(direction)
+            } else {
+                Toward::without_components(direction)
+            };
+            (self.scales[packet], self.starts[packet]) = (scale, earliest * length);
+        }
+    }
+
+    #[inline(always)]
+    fn aim_columns_and_rows(&mut self, token: T::Token, raster: &Raster) {
+        let [x, y] = self.corner;
+        let centers = T::load(token, &COLUMN_CENTERS);
+        for (number, across) in self.across.iter_mut().enumerate() {
+            *across = raster.across(centers + T::splat(token, x as f32 + (number * BLOCK_SIDE) as f32));
+        }
+        let centers = T::load(token, &ROW_CENTERS);
+        for (number, upward) in self.upward.iter_mut().enumerate().take(packets::<T>() / COLUMNS) {
+            *upward = raster.upward(centers + T::splat(token, y as f32 + (number * height::<T>()) as f32));
+        }
+    }
+
+    /// Aims rays of which some may be none: those look for nothing.
+    #[inline(always)]
+    fn aim_checked(&mut self, token: T::Token, raster: &Raster, which: u32) {
+        let (zero, infinity) = (T::splat(token, 0.0), T::splat(token, f32::INFINITY));
+        let mut bits = which;
+        while bits != 0 {
+            let packet = bits.trailing_zeros() as usize % MOST_PACKETS;
+            bits &= bits - 1;
+            let (origin, direction) = raster.line_to(self.across[packet % COLUMNS], self.upward[packet / COLUMNS]);
+            (self.lines[packet], self.scales[packet], self.starts[packet]) =
+                Packet::from_lanes(origin, direction, zero, infinity).into_parts();
         }
     }
 

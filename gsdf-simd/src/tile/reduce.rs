@@ -142,7 +142,10 @@ mod tests {
         // (a + b) - c
         let nodes = [a, b, Node::Union, c, Node::Difference];
         assert_eq!(reduced(&nodes, &[true; 3]), (Known::Open, nodes.to_vec(), vec![0, 1, 2]));
-        assert_eq!(reduced(&nodes, &[true, false, true]), (Known::Open, vec![a, c, Node::Difference], vec![0, 2]));
+        assert_eq!(
+            reduced(&nodes, &[true, false, true]),
+            (Known::Open, vec![a, c, Node::Difference], vec![0, 2])
+        );
         assert_eq!(reduced(&nodes, &[false, true, false]), (Known::Open, vec![b], vec![1]));
         assert_eq!(reduced(&nodes, &[false, false, true]), (Known::Outside, vec![], vec![]));
         // a & not (b - c)

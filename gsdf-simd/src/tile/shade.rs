@@ -7,6 +7,7 @@ use super::state::Workspace;
 use crate::lanes::{LaneMask, Lanes};
 use crate::scene::View;
 use crate::target::Wants;
+use core::ops::Range;
 use gsdf_nostd::{Solid, Surface, V3};
 
 /// Writes the pixels of a tile, normals and faces only where they are wanted, and tells how many show something.
@@ -23,12 +24,16 @@ pub(crate) fn shade<T: Lanes, L: Solid>(
     let nothing = T::splat(token, f32::INFINITY);
     let zero = T::splat(token, 0.0);
     for packet in 0..packets::<T>() {
+        let start = start_of::<T>(packet);
+        let pixels = start..start + T::LANES;
+        if work.met.touched >> packet & 1 == 0 {
+            clear(tile, pixels, wants, nothing, zero);
+            continue;
+        }
         let (_, scale, _) = work.rays.packet(packet);
         let (t, leaf) = work.met.packet(packet);
         let along = t * scale;
         let hit = along.lt(nothing);
-        let start = start_of::<T>(packet);
-        let pixels = start..start + T::LANES;
         T::select(hit, along, nothing).store(&mut tile.distance[pixels.clone()]);
         // What is infinite becomes `Pixel::NO_LEAF`.
         let leaf = T::select(hit, leaf, nothing);
@@ -59,4 +64,17 @@ pub(crate) fn shade<T: Lanes, L: Solid>(
         }
     }
     hits
+}
+
+/// Writes that some pixels show nothing.
+#[inline(always)]
+fn clear<T: Lanes>(tile: &mut Tile, pixels: Range<usize>, wants: Wants, nothing: T, zero: T) {
+    nothing.store(&mut tile.distance[pixels.clone()]);
+    nothing.store_numbers(&mut tile.leaf[pixels.clone()]);
+    if wants.normals | wants.faces {
+        let [x, y, z] = &mut tile.normal;
+        zero.store(&mut x[pixels.clone()]);
+        zero.store(&mut y[pixels.clone()]);
+        zero.store(&mut z[pixels]);
+    }
 }

@@ -1,6 +1,6 @@
 //! What is known of a tile while its parts are visited, and where it is kept.
 
-use super::rays::{MOST_PACKETS, Rays, packets};
+use super::rays::{MOST_PACKETS, Rays, every_packet, packets};
 use crate::lanes::Lanes;
 use crate::scene::Walk;
 use gsdf_nostd::{Mask, Node, Span};
@@ -8,13 +8,15 @@ use gsdf_nostd::{Mask, Node, Span};
 /// How many complements of a part are looked at together.
 pub(crate) const MOST_CUTS: usize = 64;
 
-/// The rays of a tile, and the nearest that each has met so far.
+/// The nearest that the rays of a tile have met so far.
 #[derive(Debug)]
 pub(crate) struct Met<T: Lanes> {
     /// Where each ray first enters what was visited, in the parameter of its line; infinite where it does not.
     t: [T; MOST_PACKETS],
     /// The number of the leaf there.
     leaf: [T; MOST_PACKETS],
+    /// The packets of which that is known. The rays of all others have met nothing.
+    pub(crate) touched: u32,
     /// The packets of which a ray starts inside what was visited.
     pub(crate) inside: u32,
 }
@@ -26,25 +28,33 @@ impl<T: Lanes> Met<T> {
         Self {
             t: [infinity; MOST_PACKETS],
             leaf: [infinity; MOST_PACKETS],
+            touched: 0,
             inside: 0,
         }
     }
 
     /// Forgets everything.
     #[inline(always)]
-    pub(crate) fn clear(&mut self, token: T::Token) {
-        let infinity = T::splat(token, f32::INFINITY);
-        self.inside = 0;
-        for (t, leaf) in self.t.iter_mut().zip(&mut self.leaf).take(packets::<T>()) {
-            (*t, *leaf) = (infinity, infinity);
-        }
+    pub(crate) fn clear(&mut self) {
+        (self.touched, self.inside) = (0, 0);
     }
 
-    /// Where the rays of a packet first enter what was visited, and the leaf they meet there.
+    /// Where the rays of a packet that was touched first enter what was visited, and the leaf they meet there.
     #[inline(always)]
     pub(crate) fn packet(&self, packet: usize) -> (T, T) {
         let packet = packet % MOST_PACKETS;
         (self.t[packet], self.leaf[packet])
+    }
+
+    /// Beyond what the rays of a packet need not look for anything.
+    #[inline(always)]
+    pub(crate) fn nearest(&self, packet: usize, infinity: T) -> T {
+        let packet = packet % MOST_PACKETS;
+        if self.touched >> packet & 1 == 1 {
+            self.t[packet]
+        } else {
+            infinity
+        }
     }
 
     /// Where the rays of a packet enter another part, or do not, at +inf; and the leaf there. Of two at the same place
@@ -52,6 +62,10 @@ impl<T: Lanes> Met<T> {
     #[inline(always)]
     pub(crate) fn enter(&mut self, packet: usize, t: T, leaf: T) {
         let packet = packet % MOST_PACKETS;
+        if self.touched >> packet & 1 == 0 {
+            self.replace(packet, t, leaf);
+            return;
+        }
         let (before, other) = (self.t[packet], self.leaf[packet]);
         let nearer = t.lt(before) | (t.eq(before) & leaf.lt(other));
         self.t[packet] = T::select(nearer, t, before);
@@ -62,14 +76,15 @@ impl<T: Lanes> Met<T> {
     #[inline(always)]
     pub(crate) fn replace(&mut self, packet: usize, t: T, leaf: T) {
         let packet = packet % MOST_PACKETS;
+        self.touched |= 1 << packet;
         (self.t[packet], self.leaf[packet]) = (t, leaf);
     }
 
     /// Those of some packets that still have a ray which has met nothing nearer than `depth`.
     #[inline(always)]
     pub(crate) fn open(&self, rays: &Rays<T>, which: u32, depth: f32) -> u32 {
-        let mut open = 0;
-        let mut bits = which;
+        let mut open = which & !self.touched;
+        let mut bits = which & self.touched;
         while bits != 0 {
             let packet = bits.trailing_zeros() as usize % MOST_PACKETS;
             bits &= bits - 1;
@@ -84,6 +99,9 @@ impl<T: Lanes> Met<T> {
     /// The depth beyond which no ray of the tile looks for anything.
     #[inline(always)]
     pub(crate) fn farthest(&self, rays: &Rays<T>) -> f32 {
+        if self.touched != every_packet::<T>() {
+            return f32::INFINITY;
+        }
         let (_, scale, _) = rays.packet(0);
         let mut farthest = self.t[0] * scale;
         for packet in 1..packets::<T>() {
