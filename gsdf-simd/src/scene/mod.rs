@@ -28,7 +28,7 @@ use tree::order;
 pub struct Scene<'a, L> {
     program: Program<'a, L>,
     /// The leaves, part by part; those of a product that count positively first.
-    leaves: Vec<Literal>,
+    leaves: Vec<Literal<L>>,
     /// For each leaf of the program, in order, where it is in `leaves`.
     places: Vec<u32>,
     /// The parts: those with bounds in the order of `tree`, then those without.
@@ -43,9 +43,11 @@ pub struct Scene<'a, L> {
 
 /// A leaf in a part.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Literal {
-    /// The index of its node.
-    pub(crate) node: u32,
+pub(crate) struct Literal<L> {
+    /// A copy of the solid: what is near in space is near in memory.
+    pub(crate) solid: L,
+    /// The frame it is in.
+    pub(crate) frame: u16,
     /// Its number among the leaves of the program.
     pub(crate) number: u32,
     /// Whether the program lies on the outer side of its surface.
@@ -121,7 +123,10 @@ impl<'a, L: Solid> Scene<'a, L> {
         let form = match product(nodes, starts, subtree) {
             Some(factors) => {
                 let (negatives, positives): (Vec<Factor>, Vec<Factor>) = factors.into_iter().partition(|factor| factor.negative);
-                let boxes: Vec<Reach> = negatives.iter().map(|factor| self.reach(factor.node)).collect();
+                // A complement counts only where all the solids are.
+                let within = positives.iter().map(|factor| self.reach(factor.node));
+                let within = within.fold(Reach::EVERYWHERE, Reach::common);
+                let boxes: Vec<Reach> = negatives.iter().map(|factor| self.reach(factor.node).common(within)).collect();
                 let order = order(&boxes);
                 let sorted: Vec<Reach> = order.iter().filter_map(|&index| boxes.get(index as usize)).copied().collect();
                 let negatives = order.iter().filter_map(|&index| negatives.get(index as usize));
@@ -167,11 +172,13 @@ impl<'a, L: Solid> Scene<'a, L> {
     }
 
     fn push(&mut self, factor: Factor) {
+        let Some(Node::Leaf { solid, frame }) = self.program.nodes().get(factor.node) else { return };
         if let Some(place) = self.places.get_mut(factor.leaf) {
             *place = self.leaves.len() as u32;
         }
         self.leaves.push(Literal {
-            node: factor.node as u32,
+            solid: *solid,
+            frame: *frame,
             number: factor.leaf as u32,
             negative: factor.negative,
         });
@@ -193,15 +200,16 @@ impl<'a, L: Solid> Scene<'a, L> {
 
     /// The leaf of a number: its place, and what it is to its part.
     #[inline(always)]
-    pub(crate) fn literal(&self, number: u32) -> Option<(u32, &Literal)> {
+    pub(crate) fn literal(&self, number: u32) -> Option<(u32, &Literal<L>)> {
         let place = *self.places.get(number as usize)?;
         Some((place, self.leaves.get(place as usize)?))
     }
 
     /// The solid in a place, and the frame it is in.
     #[inline(always)]
-    pub(crate) fn leaf(&self, place: u32) -> Option<(&'a L, u16)> {
-        self.solid(self.leaves.get(place as usize)?.node)
+    pub(crate) fn leaf(&self, place: u32) -> Option<(&L, u16)> {
+        let literal = self.leaves.get(place as usize)?;
+        Some((&literal.solid, literal.frame))
     }
 
     /// The places of the leaves, by their numbers.
@@ -265,7 +273,7 @@ impl<'a, L: Solid> Scene<'a, L> {
     #[must_use]
     pub fn bytes(&self) -> usize {
         let trees: usize = self.cuts.iter().map(|tree| size_of::<Tree>() + tree.bytes()).sum();
-        self.leaves.capacity() * size_of::<Literal>()
+        self.leaves.capacity() * size_of::<Literal<L>>()
             + self.places.capacity() * size_of::<u32>()
             + self.parts.capacity() * size_of::<Part>()
             + self.tree.bytes()

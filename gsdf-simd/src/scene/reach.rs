@@ -54,7 +54,7 @@ impl Reach {
     }
 
     /// A box around all that is in both.
-    fn common(self, other: Self) -> Self {
+    pub(crate) fn common(self, other: Self) -> Self {
         match (self.is_everywhere(), other.is_everywhere()) {
             (true, _) => other,
             (_, true) => self,

@@ -1,7 +1,7 @@
 //! A scene as one camera sees it.
 
 use super::Scene;
-use gsdf_nostd::{MAX_LENGTH, MAX_SPEED, Node, Projection, Raster, Solid, Transform, V3};
+use gsdf_nostd::{MAX_LENGTH, MAX_SPEED, Projection, Raster, Solid, Transform, V3};
 
 /// Up to how many leaves all are seen from the eye once for the whole picture. Of more than these the caches hold few,
 /// and most are never looked at.
@@ -39,9 +39,7 @@ impl<'s, 'a, L: Solid> View<'s, 'a, L> {
         if self.shares_origin() && self.scene.leaves.len() <= MOST_SEEN {
             let (scene, seen) = (self.scene, &mut self.seen);
             for literal in &scene.leaves {
-                if let Some((solid, frame)) = scene.solid(literal.node) {
-                    seen.push(seen_from(solid, scene.program.pose(frame), &raster));
-                }
+                seen.push(seen_from(&literal.solid, scene.program.pose(literal.frame), &raster));
             }
         }
     }
@@ -79,16 +77,5 @@ fn makes_valid_rays(raster: &Raster) -> bool {
     match raster.camera().projection() {
         Projection::Pinhole => reach < MAX_SPEED / 4.0,
         Projection::Orthographic => raster.camera().eye().abs().max_element() + reach < MAX_LENGTH,
-    }
-}
-
-impl<'a, L: Solid> Scene<'a, L> {
-    /// The solid at a node, and the frame it is in.
-    #[inline(always)]
-    pub(crate) fn solid(&self, node: u32) -> Option<(&'a L, u16)> {
-        match self.program.nodes().get(node as usize)? {
-            Node::Leaf { solid, frame } => Some((solid, *frame)),
-            _ => None,
-        }
     }
 }

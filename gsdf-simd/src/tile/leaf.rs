@@ -36,10 +36,10 @@ pub(crate) fn spans<T: Lanes, L: Solid>(
 
 /// The surface of the leaf of a number where the rays of a packet cross it, with its normals outward from the program.
 #[inline(always)]
-pub(crate) fn surface<'v, 'a, T: Lanes, L: Solid>(
+pub(crate) fn surface<'v, T: Lanes, L: Solid>(
     token: T::Token,
-    view: &'v View<'_, 'a, L>,
-    asked: &mut Asked<'v, 'a, L>,
+    view: &'v View<'_, '_, L>,
+    asked: &mut Asked<'v, L>,
     number: u32,
     packet: usize,
     rays: &mut Rays<T>,
@@ -72,16 +72,16 @@ pub(crate) fn surface<'v, 'a, T: Lanes, L: Solid>(
 }
 
 /// The leaf that was asked for its surface last: most likely the next packet will ask it again.
-pub(crate) struct Asked<'v, 'a, L: Solid> {
+pub(crate) struct Asked<'v, L: Solid> {
     number: u32,
-    solid: Option<&'a L>,
+    solid: Option<&'v L>,
     frame: u16,
     negative: bool,
     seen_before: Option<&'v L::Seen<f32>>,
     seen_now: Option<L::Seen<f32>>,
 }
 
-impl<'v, 'a, L: Solid> Asked<'v, 'a, L> {
+impl<'v, L: Solid> Asked<'v, L> {
     /// None was asked.
     #[inline(always)]
     pub(crate) fn none() -> Self {
@@ -96,7 +96,7 @@ impl<'v, 'a, L: Solid> Asked<'v, 'a, L> {
     }
 
     #[inline(always)]
-    fn ask(&mut self, view: &'v View<'_, 'a, L>, number: u32) {
+    fn ask(&mut self, view: &'v View<'_, '_, L>, number: u32) {
         let Some((place, literal)) = view.scene.literal(number) else {
             return;
         };
