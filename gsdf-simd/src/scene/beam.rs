@@ -1,7 +1,8 @@
 //! The rays of a rectangle of pixels, as one thing that meets boxes or does not.
 
-use super::tree::{FANOUT, Group, MOST_LEVELS, Tree};
-use crate::lanes::{LaneMask, Lanes};
+use super::tree::{FANOUT, Group};
+use super::walk::{Meets, Met};
+use crate::lanes::{LaneMask, Lanes, MOST_LANES};
 use glam::Vec3;
 use gsdf_nostd::{Mask, Projection, Raster, V3};
 
@@ -21,34 +22,39 @@ pub(crate) struct Beam {
     /// How many pixels one unit across makes, where the depth is one.
     pixels: f32,
     spread: bool,
+    /// How packets lie in the square.
+    packets: Grid,
     /// How much longer than a unit vector `right` and `up` may be.
     skew: f32,
 }
 
-/// For the boxes of a group: which the beam may meet, where in its square, and from which depth on.
+/// How the packets of a tile cover its pixels: four side by side, row by row.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Met {
-    /// The bits of the boxes that are met.
-    pub(crate) bits: u32,
-    /// The least depth of each.
-    pub(crate) near: [f32; FANOUT],
-    /// From where to where it reaches in the square, in pixels from its left upper corner; perhaps beyond it.
-    pub(crate) left: [f32; FANOUT],
-    pub(crate) right: [f32; FANOUT],
-    pub(crate) top: [f32; FANOUT],
-    pub(crate) bottom: [f32; FANOUT],
+pub(crate) struct Grid {
+    /// The number of rows of pixels that a packet has, as a power of two.
+    height_bits: u32,
 }
 
-impl Met {
-    /// None of the boxes.
-    pub(crate) const NOTHING: Self = Self {
-        bits: 0,
-        near: [0.0; FANOUT],
-        left: [0.0; FANOUT],
-        right: [0.0; FANOUT],
-        top: [0.0; FANOUT],
-        bottom: [0.0; FANOUT],
-    };
+impl Grid {
+    /// The side of a tile, in pixels.
+    pub(crate) const SIDE: u32 = 16;
+
+    /// The grid of packets that have so many rows of pixels: a power of two.
+    pub(crate) const fn new(height: u32) -> Self {
+        Self {
+            height_bits: height.trailing_zeros(),
+        }
+    }
+
+    /// The bits of the packets between these pixels, both included.
+    #[inline(always)]
+    fn within(self, left: u32, right: u32, top: u32, bottom: u32) -> u32 {
+        let (first, last) = (left >> 2 & 3, right >> 2 & 3);
+        let columns = (2_u32 << last).wrapping_sub(1 << first) & 0xf;
+        let (highest, lowest) = (top >> self.height_bits & 7, bottom >> self.height_bits & 7);
+        let rows = (2_u64 << (4 * lowest + 3)).wrapping_sub(1 << (4 * highest)) as u32;
+        columns * 0x1111_1111 & rows
+    }
 }
 
 /// By how much a box is widened, as a share of how far it is and how large, for all that is rounded on the way of a ray
@@ -59,11 +65,11 @@ const OF_DISTANCE: f32 = 1.0 / 65_536.0;
 const OF_PIXEL: f32 = 1.0 / 64.0;
 
 impl Beam {
-    /// The beam through the square of `side` pixels whose left upper corner is pixel (`x`, `y`).
-    pub(crate) fn new(raster: &Raster, x: u32, y: u32, side: u32) -> Self {
+    /// The beam through the tile whose left upper corner is pixel (`x`, `y`).
+    pub(crate) fn new(raster: &Raster, x: u32, y: u32, packets: Grid) -> Self {
         let camera = raster.camera();
         let pixel = raster.pixel();
-        let half = 0.5 * side as f32;
+        let half = 0.5 * Grid::SIDE as f32;
         let across = (x as f32 + half - 0.5 * raster.width() as f32) * pixel;
         let upward = (0.5 * raster.height() as f32 - y as f32 - half) * pixel;
         let spread = camera.projection() == Projection::Pinhole;
@@ -82,25 +88,14 @@ impl Beam {
             half: (half + OF_PIXEL) * pixel,
             pixels: 1.0 / pixel,
             spread,
+            packets,
             skew: 1.0 + across.abs().max(upward.abs()),
         }
     }
 
-    /// Which of a group's boxes the beam may meet.
     #[inline(always)]
-    pub(crate) fn meet<T: Lanes>(&self, token: T::Token, group: &Group, met: &mut Met) {
-        met.bits = 0;
-        let mut from = 0;
-        while from < FANOUT {
-            let to = from + T::LANES;
-            self.meet_some::<T>(token, group, from, to, met);
-            from = to;
-        }
-    }
-
-    #[inline(always)]
-    fn meet_some<T: Lanes>(&self, token: T::Token, group: &Group, from: usize, to: usize, met: &mut Met) {
-        let some = from..to;
+    fn meet_some<T: Lanes>(&self, token: T::Token, group: &Group, from: usize, items: bool, met: &mut Met) {
+        let some = from..from + T::LANES;
         let [x, y, z] = &group.center;
         let center = V3::new(
             T::load(token, &x[some.clone()]),
@@ -136,7 +131,10 @@ impl Beam {
         if !live.any() {
             return;
         }
-        near.max(zero).store(&mut met.near[some.clone()]);
+        near.max(zero).store(&mut met.near[some]);
+        if !items {
+            return;
+        }
 
         // Of a box in front of the eye the picture lies between those of its sides at the near and the far depth.
         let ahead = zero.lt(near);
@@ -148,133 +146,50 @@ impl Beam {
         let bounded = if self.spread { ahead } else { ahead.splat_like(true) };
         let pixels = like.splat_like(self.pixels);
         let middle = like.splat_like(self.half * self.pixels);
-        let beyond = like.splat_like(1e6);
-        let least = T::select(bounded, (left * per_near).min(left * per_far) * pixels, -beyond);
-        let most = T::select(bounded, (right * per_near).max(right * per_far) * pixels, beyond);
-        let lowest = T::select(bounded, (bottom * per_near).min(bottom * per_far) * pixels, -beyond);
-        let highest = T::select(bounded, (top * per_near).max(top * per_far) * pixels, beyond);
-        (middle + least).store(&mut met.left[some.clone()]);
-        (middle + most).store(&mut met.right[some.clone()]);
-        (middle - highest).store(&mut met.top[some.clone()]);
-        (middle - lowest).store(&mut met.bottom[some]);
+        let last = like.splat_like(Grid::SIDE as f32 - 1.0);
+        let least = T::select(bounded, middle + (left * per_near).min(left * per_far) * pixels, zero);
+        let most = T::select(bounded, middle + (right * per_near).max(right * per_far) * pixels, last);
+        let highest = T::select(bounded, middle - (top * per_near).max(top * per_far) * pixels, zero);
+        let lowest = T::select(bounded, middle - (bottom * per_near).min(bottom * per_far) * pixels, last);
+        let mut sides = [[0; MOST_LANES]; 4];
+        least.max(zero).min(last).store_numbers(&mut sides[0]);
+        most.max(zero).min(last).store_numbers(&mut sides[1]);
+        highest.max(zero).min(last).store_numbers(&mut sides[2]);
+        lowest.max(zero).min(last).store_numbers(&mut sides[3]);
+        let [left, right, top, bottom] = &sides;
+        for place in 0..T::LANES {
+            let touched = self.packets.within(left[place], right[place], top[place], bottom[place]);
+            met.touched[(from + place) % FANOUT] = touched;
+        }
     }
 }
 
-/// A walk of a beam through a tree, roughly from near to far.
-#[derive(Debug)]
-pub(crate) struct Walk {
-    /// Groups still to be visited: level, number, and the least depth at which the beam meets them.
-    waiting: [(u8, u32, f32); MOST_LEVELS * FANOUT],
-    length: usize,
-    /// What the beam meets in the group at hand.
-    pub(crate) met: Met,
-}
-
-impl Walk {
-    /// A walk that is over.
-    pub(crate) fn new() -> Self {
-        Self {
-            waiting: [(0, 0, 0.0); MOST_LEVELS * FANOUT],
-            length: 0,
-            met: Met::NOTHING,
-        }
-    }
-
-    /// Begins at the top of a tree.
+impl<T: Lanes> Meets<T> for Beam {
     #[inline(always)]
-    pub(crate) fn begin(&mut self, tree: &Tree) {
-        self.length = 0;
-        if let Some(top) = tree.top() {
-            self.push(top, 0, 0.0);
+    fn meet(&self, token: T::Token, group: &Group, items: bool, met: &mut Met) {
+        met.bits = 0;
+        let mut from = 0;
+        while from < FANOUT {
+            self.meet_some::<T>(token, group, from, items, met);
+            from += T::LANES;
         }
-    }
-
-    #[inline(always)]
-    fn push(&mut self, level: usize, group: usize, near: f32) {
-        if let Some(place) = self.waiting.get_mut(self.length) {
-            *place = (level as u8, group as u32, near);
-            self.length += 1;
-        }
-    }
-
-    /// Whether there is no group left to visit.
-    #[inline(always)]
-    pub(crate) fn is_over(&self) -> bool {
-        self.length == 0
-    }
-
-    /// Goes on to the next group of items that the beam meets nearer than `far`, and tells the number of its first item;
-    /// its boxes are in `met`.
-    #[inline(always)]
-    pub(crate) fn next<T: Lanes>(&mut self, token: T::Token, tree: &Tree, beam: &Beam, far: f32) -> Option<usize> {
-        while let Some(last) = self.length.checked_sub(1) {
-            self.length = last;
-            let (level, number, near) = *self.waiting.get(last)?;
-            if far <= near {
-                continue;
-            }
-            let (level, number) = (usize::from(level), number as usize);
-            let (group, held) = tree.group(level, number)?;
-            beam.meet::<T>(token, group, &mut self.met);
-            self.met.bits &= held;
-            if level == 0 {
-                return Some(number * FANOUT);
-            }
-            // The nearest is pushed last, to be visited first.
-            let mut order = Nearest::new(&self.met);
-            let from = self.length;
-            while let Some(place) = order.next() {
-                self.push(level - 1, number * FANOUT + place, self.met.near[place]);
-            }
-            if let Some(pushed) = self.waiting.get_mut(from..self.length) {
-                pushed.reverse();
-            }
-        }
-        None
     }
 }
 
-/// The places of the boxes that are met, from near to far.
-#[derive(Debug)]
-pub(crate) struct Nearest {
-    places: [u8; FANOUT],
-    length: usize,
-    given: usize,
-}
+#[cfg(test)]
+mod tests {
+    use super::Grid;
 
-impl Nearest {
-    /// None.
-    pub(crate) const NONE: Self = Self {
-        places: [0; FANOUT],
-        length: 0,
-        given: 0,
-    };
-
-    #[inline(always)]
-    pub(crate) fn new(met: &Met) -> Self {
-        let mut sorted = Self::NONE;
-        let mut bits = met.bits;
-        while bits != 0 {
-            let place = bits.trailing_zeros() as usize & (FANOUT - 1);
-            bits &= bits - 1;
-            let mut at = sorted.length;
-            while at > 0 && met.near[place] < met.near[usize::from(sorted.places[at - 1]) & (FANOUT - 1)] {
-                sorted.places[at] = sorted.places[at - 1];
-                at -= 1;
-            }
-            sorted.places[at] = place as u8;
-            sorted.length += 1;
-        }
-        sorted
-    }
-
-    #[inline(always)]
-    pub(crate) fn next(&mut self) -> Option<usize> {
-        if self.given == self.length {
-            return None;
-        }
-        let place = usize::from(self.places[self.given]) & (FANOUT - 1);
-        self.given += 1;
-        Some(place)
+    #[test]
+    fn rectangles_touch_packets() {
+        let touched = |left, right, top, bottom| Grid::new(2).within(left, right, top, bottom);
+        assert_eq!(touched(0, 15, 0, 15), u32::MAX);
+        assert_eq!(touched(0, 0, 0, 0), 1);
+        assert_eq!(touched(4, 4, 2, 2), 1 << 5);
+        assert_eq!(touched(3, 4, 0, 1), 0b11);
+        assert_eq!(touched(15, 15, 15, 15), 1 << 31);
+        assert_eq!(touched(0, 1, 1, 2), 0b1_0001);
+        assert_eq!(Grid::new(4).within(0, 15, 0, 15) & 0xffff, 0xffff);
+        assert_eq!(Grid::new(4).within(5, 9, 5, 13), 0x6660);
     }
 }

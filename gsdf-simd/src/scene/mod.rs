@@ -5,10 +5,12 @@ mod reach;
 mod split;
 mod tree;
 mod view;
+mod walk;
 
-pub(crate) use beam::{Beam, Nearest, Walk};
+pub(crate) use beam::{Beam, Grid};
 pub(crate) use tree::{FANOUT, Tree};
 pub(crate) use view::View;
+pub(crate) use walk::{Meets, Walk};
 
 use core::ops::Range;
 use gsdf_nostd::{Node, Program, Solid};
@@ -172,7 +174,9 @@ impl<'a, L: Solid> Scene<'a, L> {
     }
 
     fn push(&mut self, factor: Factor) {
-        let Some(Node::Leaf { solid, frame }) = self.program.nodes().get(factor.node) else { return };
+        let Some(Node::Leaf { solid, frame }) = self.program.nodes().get(factor.node) else {
+            return;
+        };
         if let Some(place) = self.places.get_mut(factor.leaf) {
             *place = self.leaves.len() as u32;
         }

@@ -4,7 +4,7 @@ use super::leaf;
 use super::reduce::{Known, Reduced};
 use super::state::Workspace;
 use crate::lanes::{Lanes, MOST_LANES};
-use crate::scene::{Beam, FANOUT, Form, View};
+use crate::scene::{FANOUT, Form, Meets, View};
 use core::ops::Range;
 use gsdf_nostd::{Mask, Node, Solid, Span, attribute, march};
 
@@ -14,10 +14,10 @@ const MOST_SPANS: usize = 8192;
 /// A part of the program with its leaves in these places, or the whole of it, cast at by some packets of a tile. The
 /// whole of it is for rays that start inside: it is found where they first leave or enter.
 #[inline(always)]
-pub(crate) fn cast<T: Lanes, L: Solid>(
+pub(crate) fn cast<T: Lanes, L: Solid, M: Meets<T>>(
     token: T::Token,
     view: &View<'_, '_, L>,
-    beam: &Beam,
+    rays: &M,
     places: Range<u32>,
     form: &Form,
     which: u32,
@@ -36,7 +36,7 @@ pub(crate) fn cast<T: Lanes, L: Solid>(
     work.live.clear();
     work.live.resize(if all { scene.program().leaves() } else { places.len() }, false);
     work.inner_walk.begin(tree);
-    while let Some(item) = work.inner_walk.next::<T>(token, tree, beam, f32::INFINITY) {
+    while let Some(item) = work.inner_walk.next::<T, M>(token, tree, rays, f32::INFINITY) {
         let mut bits = work.inner_walk.met.bits;
         while bits != 0 {
             let place = bits.trailing_zeros() as usize % FANOUT;

@@ -13,11 +13,10 @@ pub use pixels::{Pixel, TILE_PIXELS, TILE_SIDE, Tile};
 pub(crate) use state::Workspace;
 
 use crate::lanes::Lanes;
-use crate::scene::{Beam, FANOUT, Form, Nearest, View};
+use crate::scene::{Beam, FANOUT, Form, Grid, Meets, View};
 use crate::target::Wants;
-use core::ops::Range;
 use gsdf_nostd::Solid;
-use rays::{every_packet, packets_within};
+use rays::every_packet;
 
 /// Casts the rays through the pixels of the tile whose left upper pixel is (`x`, `y`), and tells how many hit something.
 #[inline(always)]
@@ -29,97 +28,56 @@ pub(crate) fn cast<T: Lanes, L: Solid>(
     work: &mut Workspace<T, L>,
     tile: &mut Tile,
 ) -> u32 {
-    let scene = view.scene;
     work.rays.begin([x, y]);
     work.met.clear();
-    let beam = Beam::new(&view.raster, x, y, TILE_SIDE as u32);
-    work.walk.begin(scene.tree());
-    let mut visits = Visits::new(scene.unbounded());
-    while let Some((visit, which)) = visits.next(token, view, &beam, work) {
-        work.rays.aim(token, view, which);
-        let form = match visit {
-            Visit::Part(number) => scene.part(number).map(|part| (part.leaves.clone(), &part.form)),
-            // Neither the split into parts nor the product holds there.
-            Visit::Whole => Some((0..0, &Form::Whole)),
-        };
-        match form {
-            Some((leaves, Form::Product { positives, cuts })) => {
-                product::cast(token, view, &beam, leaves, *positives, scene.cuts(*cuts), which, work);
-            }
-            Some((leaves, form)) => march::cast(token, view, &beam, leaves, form, which, work),
-            None => {}
-        }
-    }
+    let beam = Beam::new(&view.raster, x, y, Grid::new(rays::height::<T>() as u32));
+    visit(token, view, &beam, work);
     shade::shade(token, view, wants, work, tile)
 }
 
-/// What the rays of some packets are cast at.
-#[derive(Clone, Copy, Debug)]
-enum Visit {
-    /// A part of the scene.
-    Part(usize),
-    /// The whole program.
-    Whole,
-}
-
-/// What the rays of a tile have to visit, in the order in which that is least work: the parts with bounds, roughly from
-/// near to far; those without; and where rays start inside of a part, the whole program again.
-struct Visits {
-    /// The first part of the group at hand, and those of the group that are left.
-    first: usize,
-    nearest: Nearest,
-    unbounded: Range<usize>,
-    whole: bool,
-}
-
-impl Visits {
-    #[inline(always)]
-    fn new(unbounded: Range<usize>) -> Self {
-        Self {
-            first: 0,
-            nearest: Nearest::NONE,
-            unbounded,
-            whole: false,
-        }
-    }
-
-    #[inline(always)]
-    fn next<T: Lanes, L: Solid>(
-        &mut self,
-        token: T::Token,
-        view: &View<'_, '_, L>,
-        beam: &Beam,
-        work: &mut Workspace<T, L>,
-    ) -> Option<(Visit, u32)> {
-        loop {
-            while let Some(place) = self.nearest.next() {
-                let place = place % FANOUT;
-                let met = &work.walk.met;
-                let touched = packets_within::<T>(met.left[place], met.right[place], met.top[place], met.bottom[place]);
-                let open = work.met.open(&work.rays, touched, met.near[place]);
-                if open != 0 {
-                    return Some((Visit::Part(self.first + place), open));
-                }
+/// Casts the rays of a tile at all that they may meet, in the order in which that is least work: the parts with bounds,
+/// roughly from near to far; those without; and where rays start inside of a part, the whole program again.
+#[inline(always)]
+fn visit<T: Lanes, L: Solid, M: Meets<T>>(token: T::Token, view: &View<'_, '_, L>, rays: &M, work: &mut Workspace<T, L>) {
+    let scene = view.scene;
+    work.walk.begin(scene.tree());
+    // The first part of the group at hand, and the bits of those of the group that are left.
+    let (mut first, mut left) = (0, 0_u32);
+    let mut unbounded = scene.unbounded();
+    let mut at_start = true;
+    let mut whole = false;
+    loop {
+        // There is one place where something is visited: what is inlined there is compiled once.
+        let (which, leaves, form);
+        if left != 0 {
+            let place = left.trailing_zeros() as usize % FANOUT;
+            left &= left - 1;
+            let met = &work.walk.met;
+            let open = work.met.open(&work.rays, met.touched[place], met.near[place]);
+            match scene.part(first + place) {
+                Some(part) if open != 0 => (which, leaves, form) = (open, part.leaves.clone(), &part.form),
+                _ => continue,
             }
-            if work.walk.is_over() {
-                break;
+        } else if !work.walk.is_over() {
+            let far = if at_start { f32::INFINITY } else { work.met.farthest(&work.rays) };
+            at_start = false;
+            if let Some(item) = work.walk.next::<T, M>(token, scene.tree(), rays, far) {
+                (first, left) = (item, work.walk.met.bits);
             }
-            let far = work.met.farthest(&work.rays);
-            match work.walk.next::<T>(token, view.scene.tree(), beam, far) {
-                Some(first) => {
-                    self.first = first;
-                    self.nearest = Nearest::new(&work.walk.met);
-                }
-                None => break,
-            }
+            continue;
+        } else if let Some(part) = unbounded.next().and_then(|number| scene.part(number)) {
+            (which, leaves, form) = (every_packet::<T>(), part.leaves.clone(), &part.form);
+        } else if work.met.inside != 0 && !whole {
+            // Neither the split into parts nor the product holds there.
+            whole = true;
+            (which, leaves, form) = (work.met.inside, 0..0, &Form::Whole);
+        } else {
+            break;
         }
-        if let Some(part) = self.unbounded.next() {
-            return Some((Visit::Part(part), every_packet::<T>()));
+        work.rays.aim(token, view, which);
+        match form {
+            Form::Product { positives, cuts } => product::cast(token, view, rays, leaves, *positives, scene.cuts(*cuts), which, work),
+            form => march::cast(token, view, rays, leaves, form, which, work),
         }
-        if work.met.inside != 0 && !self.whole {
-            self.whole = true;
-            return Some((Visit::Whole, work.met.inside));
-        }
-        None
     }
 }

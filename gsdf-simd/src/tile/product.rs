@@ -2,10 +2,10 @@
 //! complements in the way ends.
 
 use super::leaf;
-use super::rays::{MOST_PACKETS, packets_within};
+use super::rays::MOST_PACKETS;
 use super::state::{MOST_CUTS, Workspace};
 use crate::lanes::Lanes;
-use crate::scene::{Beam, FANOUT, Tree, View};
+use crate::scene::{FANOUT, Meets, Tree, View};
 use core::ops::Range;
 use gsdf_nostd::{Mask, Solid, Span};
 
@@ -48,10 +48,10 @@ fn intersect<T: Lanes, L: Solid>(token: T::Token, view: &View<'_, '_, L>, places
 /// some packets of a tile.
 #[inline(always)]
 #[allow(clippy::too_many_arguments, reason = "what a tile is made of, passed through")]
-pub(crate) fn cast<T: Lanes, L: Solid>(
+pub(crate) fn cast<T: Lanes, L: Solid, M: Meets<T>>(
     token: T::Token,
     view: &View<'_, '_, L>,
-    beam: &Beam,
+    rays: &M,
     part: Range<u32>,
     positives: u32,
     cuts: Option<&Tree>,
@@ -66,7 +66,7 @@ pub(crate) fn cast<T: Lanes, L: Solid>(
         if alive == 0 {
             return;
         }
-        gather(token, cuts, beam, first_cut, alive, work);
+        gather(token, cuts, rays, first_cut, alive, work);
         loop {
             let mut moved = false;
             let mut from = 0;
@@ -124,18 +124,18 @@ fn begin<T: Lanes, L>(which: u32, work: &mut Workspace<T, L>) -> u32 {
     alive
 }
 
-/// The complements that a beam may meet, with those of some packets that do.
+/// The complements that the rays may meet, with those of some packets that do.
 #[inline(always)]
-fn gather<T: Lanes, L>(token: T::Token, cuts: &Tree, beam: &Beam, first: u32, which: u32, work: &mut Workspace<T, L>) {
+fn gather<T: Lanes, L, M: Meets<T>>(token: T::Token, cuts: &Tree, rays: &M, first: u32, which: u32, work: &mut Workspace<T, L>) {
     work.cuts.clear();
     work.inner_walk.begin(cuts);
-    while let Some(item) = work.inner_walk.next::<T>(token, cuts, beam, f32::INFINITY) {
+    while let Some(item) = work.inner_walk.next::<T, M>(token, cuts, rays, f32::INFINITY) {
         let mut bits = work.inner_walk.met.bits;
         while bits != 0 {
             let place = bits.trailing_zeros() as usize % FANOUT;
             bits &= bits - 1;
             let met = &work.inner_walk.met;
-            let touched = which & packets_within::<T>(met.left[place], met.right[place], met.top[place], met.bottom[place]);
+            let touched = which & met.touched[place];
             if touched != 0 {
                 work.cuts.push((first + (item + place) as u32, touched));
             }

@@ -23,7 +23,7 @@ pub(crate) const fn every_packet<T: Lanes>() -> u32 {
 }
 
 /// How many rows of pixels a packet has.
-const fn height<T: Lanes>() -> usize {
+pub(crate) const fn height<T: Lanes>() -> usize {
     T::LANES / BLOCK_SIDE
 }
 
@@ -33,22 +33,6 @@ pub(crate) fn start_of<T: Lanes>(packet: usize) -> usize {
     let (column, row) = (packet % COLUMNS, packet / COLUMNS);
     let top = row * height::<T>();
     (top / BLOCK_SIDE * COLUMNS + column) * BLOCK_SIDE * BLOCK_SIDE + top % BLOCK_SIDE * BLOCK_SIDE
-}
-
-/// The bits of the packets that a rectangle of a tile touches, given in pixels.
-#[inline(always)]
-pub(crate) fn packets_within<T: Lanes>(left: f32, right: f32, top: f32, bottom: f32) -> u32 {
-    let side = TILE_SIDE as f32 - 1.0;
-    // `as` takes what is not a number, or below zero, for zero.
-    let (left, right) = (left as u32, right.min(side) as u32);
-    let (top, bottom) = (top as u32, bottom.min(side) as u32);
-    let (width, height) = (BLOCK_SIDE as u32, height::<T>() as u32);
-    let (first, last) = ((left / width).min(3), right / width);
-    let (highest, lowest) = ((top / height).min(7), bottom / height);
-    let columns = ((2 << last) - 1) & !((1 << first) - 1);
-    let below = |row: u32| ((1_u64 << (4 * row)) - 1) as u32;
-    let rows = below(lowest + 1) & !below(highest);
-    (columns * 0x1111_1111) & rows
 }
 
 /// The rays of a tile, aimed where they are needed.
@@ -207,7 +191,7 @@ impl<T: Lanes> Rays<T> {
 
 #[cfg(test)]
 mod tests {
-    use super::{packets, packets_within, start_of};
+    use super::{packets, start_of};
     use crate::lanes::F32x8;
     use crate::tile::pixels::{TILE_PIXELS, Tile};
 
@@ -219,17 +203,5 @@ mod tests {
         starts.sort_unstable();
         assert!(starts.iter().enumerate().all(|(place, start)| *start == 8 * place));
         assert_eq!(starts.len() * 8, TILE_PIXELS);
-    }
-
-    #[test]
-    fn rectangles_touch_packets() {
-        let touched = packets_within::<F32x8>;
-        assert_eq!(touched(0.0, 16.0, 0.0, 16.0), u32::MAX);
-        assert_eq!(touched(-1e6, 1e6, -1e6, 1e6), u32::MAX);
-        assert_eq!(touched(0.0, 0.5, 0.0, 0.5), 1);
-        assert_eq!(touched(4.0, 4.5, 2.0, 2.5), 1 << 5);
-        assert_eq!(touched(3.9, 4.1, 0.0, 1.0), 0b11);
-        assert_eq!(touched(15.5, 20.0, 15.5, 20.0), 1 << 31);
-        assert_eq!(touched(0.0, 1.0, 1.9, 2.1), 0b1_0001);
     }
 }
