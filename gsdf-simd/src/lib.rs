@@ -63,6 +63,8 @@
 #![cfg_attr(not(feature = "std"), no_std)]
 #![forbid(unsafe_code)]
 
+#[cfg(feature = "std")]
+mod batch;
 mod lanes;
 mod level;
 mod packet;
@@ -75,6 +77,8 @@ mod target;
 #[cfg(feature = "std")]
 mod tile;
 
+#[cfg(feature = "std")]
+pub use batch::{Caster, LengthsDiffer, RayHits, Rays};
 #[cfg(all(feature = "std", target_arch = "x86_64"))]
 pub use lanes::{Avx2Mask, Avx2x8, Avx512Mask, Avx512x16};
 pub use lanes::{F32x8, LaneMask, Lanes, MOST_LANES, Mask8};

@@ -130,6 +130,12 @@ impl<T: Lanes> Packet<T> {
         (self.line, self.scale, self.start)
     }
 
+    /// Where the ranges end, in the parameter of the rays.
+    #[inline(always)]
+    pub(crate) fn end(&self) -> T {
+        self.end
+    }
+
     /// Which lanes hold a ray.
     #[inline(always)]
     #[must_use]

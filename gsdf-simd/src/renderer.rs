@@ -19,6 +19,7 @@ use std::sync::{Mutex, PoisonError};
 /// It keeps the memory it works in: pictures after the first allocate nothing, on no more threads than before.
 pub struct Renderer<'s, 'a, L: Solid> {
     view: View<'s, 'a, L>,
+    raster: Raster,
     level: Level,
     /// What the threads work in, as long as none does.
     idle: Mutex<Vec<Worker<'s, L>>>,
@@ -65,8 +66,11 @@ where
     /// The same at another level; the pixels are the same.
     #[must_use]
     pub fn at_level(scene: &'s Scene<'a, L>, raster: Raster, level: Level) -> Self {
+        let mut view = View::of_any_rays(scene);
+        view.look(raster);
         Self {
-            view: View::new(scene, raster),
+            view,
+            raster,
             level,
             idle: Mutex::new(Vec::new()),
         }
@@ -81,12 +85,13 @@ where
     /// Looks through another raster from now on.
     pub fn look(&mut self, raster: Raster) {
         self.view.look(raster);
+        self.raster = raster;
     }
 
     /// Casts a ray through the centre of every pixel, on the threads of the current `rayon` pool. The pixels do not
     /// depend on their number.
     pub fn render<T: Target>(&mut self, target: T) -> Effort {
-        let rows = (self.view.raster.height() as usize).div_ceil(TILE_SIDE);
+        let rows = (self.raster.height() as usize).div_ceil(TILE_SIDE);
         let workers = rayon::current_num_threads().min(rows);
         let idle = self.idle.get_mut().unwrap_or_else(PoisonError::into_inner);
         while idle.len() < workers {
@@ -115,7 +120,7 @@ where
         // The last one that was given back is the one whose memory is still in a cache.
         let worker = idle().pop();
         let mut worker = worker.unwrap_or_else(|| self.level.run(MakeWorker(PhantomData)));
-        let effort = worker.render(&self.view, row, target.wants(), target);
+        let effort = worker.render(&self.view, &self.raster, row, target.wants(), target);
         idle().push(worker);
         effort
     }
@@ -124,7 +129,7 @@ where
 /// What renders a row of tiles, in lanes of some type.
 trait Row<L: Solid>: Send {
     /// Renders a row of tiles.
-    fn render(&mut self, view: &View<'_, '_, L>, row: usize, wants: Wants, target: &mut dyn PutTiles) -> Effort;
+    fn render(&mut self, view: &View<'_, '_, L>, raster: &Raster, row: usize, wants: Wants, target: &mut dyn PutTiles) -> Effort;
 }
 
 /// Makes a [`Worker`] for the lanes of a level.
@@ -150,13 +155,13 @@ struct RowOf<T: Lanes, L> {
 }
 
 impl<T: Lanes, L: Solid + Send + Sync> Row<L> for RowOf<T, L> {
-    fn render(&mut self, view: &View<'_, '_, L>, row: usize, wants: Wants, target: &mut dyn PutTiles) -> Effort {
+    fn render(&mut self, view: &View<'_, '_, L>, raster: &Raster, row: usize, wants: Wants, target: &mut dyn PutTiles) -> Effort {
         let Self { token, work, tile } = self;
         let token = *token;
         T::vectorize(
             token,
             #[inline(always)]
-            || render_row(token, view, row, wants, work, tile, target),
+            || render_row(token, view, raster, row, wants, work, tile, target),
         )
     }
 }
@@ -165,13 +170,14 @@ impl<T: Lanes, L: Solid + Send + Sync> Row<L> for RowOf<T, L> {
 fn render_row<T: Lanes, L: Solid>(
     token: T::Token,
     view: &View<'_, '_, L>,
+    raster: &Raster,
     row: usize,
     wants: Wants,
     work: &mut Workspace<T, L>,
     own: &mut Tile,
     target: &mut dyn PutTiles,
 ) -> Effort {
-    let (width, height) = (view.raster.width(), view.raster.height());
+    let (width, height) = (raster.width(), raster.height());
     let y = (row * TILE_SIDE) as u32;
     let side = TILE_SIDE as u32;
     let mut effort = Effort::default();

@@ -8,9 +8,10 @@ mod view;
 mod walk;
 
 pub(crate) use beam::{Beam, Grid};
+pub(crate) use tree::Group;
 pub(crate) use tree::{FANOUT, Tree};
-pub(crate) use view::View;
-pub(crate) use walk::{Meets, Walk};
+pub(crate) use view::{Picture, View};
+pub(crate) use walk::{Meets, Met, Walk};
 
 use core::ops::Range;
 use gsdf_nostd::{Node, Program, Solid};

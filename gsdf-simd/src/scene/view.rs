@@ -1,53 +1,59 @@
-//! A scene as one camera sees it.
+//! A scene as rays see it that have something in common.
 
 use super::Scene;
+use glam::Vec3;
 use gsdf_nostd::{MAX_LENGTH, MAX_SPEED, Projection, Raster, Solid, Transform, V3};
 
 /// Up to how many leaves all are seen from the eye once for the whole picture. Of more than these the caches hold few,
 /// and most are never looked at.
 const MOST_SEEN: usize = 4096;
 
-/// A scene and a raster, with what depends on the camera alone.
+/// A scene as some rays see it, with what they have in common.
 #[derive(Debug)]
 pub(crate) struct View<'s, 'a, L: Solid> {
     pub(crate) scene: &'s Scene<'a, L>,
-    pub(crate) raster: Raster,
-    /// The leaves as seen from the eye, in the order of the scene; empty where they are too many, or the rays have no
-    /// origin in common.
+    /// The picture that they are the rays of, if they are.
+    pub(crate) picture: Option<Picture>,
+    /// Where they all start, if they do.
+    eye: Option<Vec3>,
+    /// The leaves as seen from there, in the order of the scene; empty where they are too many.
     seen: Vec<L::Seen<f32>>,
+}
+
+/// A picture to be.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Picture {
+    pub(crate) raster: Raster,
     /// Whether the raster makes valid rays of all its pixels, whatever they are.
     pub(crate) valid: bool,
 }
 
 impl<'s, 'a, L: Solid> View<'s, 'a, L> {
-    pub(crate) fn new(scene: &'s Scene<'a, L>, raster: Raster) -> Self {
-        let mut view = Self {
+    /// A scene seen by rays that have nothing in common.
+    pub(crate) fn of_any_rays(scene: &'s Scene<'a, L>) -> Self {
+        Self {
             scene,
-            raster,
+            picture: None,
+            eye: None,
             seen: Vec::new(),
-            valid: false,
-        };
-        view.look(raster);
-        view
-    }
-
-    /// Looks through another raster. Of no more leaves than before nothing is allocated.
-    pub(crate) fn look(&mut self, raster: Raster) {
-        self.raster = raster;
-        self.valid = makes_valid_rays(&raster);
-        self.seen.clear();
-        if self.shares_origin() && self.scene.leaves.len() <= MOST_SEEN {
-            let (scene, seen) = (self.scene, &mut self.seen);
-            for literal in &scene.leaves {
-                seen.push(seen_from(&literal.solid, scene.program.pose(literal.frame), &raster));
-            }
         }
     }
 
-    /// Whether all rays start at the eye.
-    #[inline(always)]
-    pub(crate) fn shares_origin(&self) -> bool {
-        self.raster.camera().projection() == Projection::Pinhole
+    /// Looks through a raster from now on. Of no more leaves than before nothing is allocated.
+    pub(crate) fn look(&mut self, raster: Raster) {
+        self.picture = Some(Picture {
+            raster,
+            valid: makes_valid_rays(&raster),
+        });
+        let camera = raster.camera();
+        self.eye = (camera.projection() == Projection::Pinhole).then_some(camera.eye());
+        self.seen.clear();
+        if let Some(eye) = self.eye.filter(|_| self.scene.leaves.len() <= MOST_SEEN) {
+            let (scene, seen) = (self.scene, &mut self.seen);
+            for literal in &scene.leaves {
+                seen.push(seen_from(&literal.solid, scene.program.pose(literal.frame), eye));
+            }
+        }
     }
 
     /// The leaf in a place of the scene as it was seen from the eye for the whole picture, if it was.
@@ -56,17 +62,17 @@ impl<'s, 'a, L: Solid> View<'s, 'a, L> {
         self.seen.get(place as usize)
     }
 
-    /// A solid in a frame, as seen from the eye.
+    /// A solid in a frame as seen from where all rays start, if they do so in one place.
     #[inline(always)]
-    pub(crate) fn see(&self, solid: &L, frame: u16) -> L::Seen<f32> {
-        seen_from(solid, self.scene.program.pose(frame), &self.raster)
+    pub(crate) fn see(&self, solid: &L, frame: u16) -> Option<L::Seen<f32>> {
+        Some(seen_from(solid, self.scene.program.pose(frame), self.eye?))
     }
 }
 
-/// A solid as seen from the eye of a camera.
+/// A solid as seen from a point of the world.
 #[inline]
-fn seen_from<L: Solid>(solid: &L, pose: Option<&Transform>, raster: &Raster) -> L::Seen<f32> {
-    let eye = V3::from(raster.camera().eye());
+fn seen_from<L: Solid>(solid: &L, pose: Option<&Transform>, eye: Vec3) -> L::Seen<f32> {
+    let eye = V3::from(eye);
     solid.seen_from(pose.map_or(eye, |pose| pose.point_to_local(eye)))
 }
 

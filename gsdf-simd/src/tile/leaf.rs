@@ -21,9 +21,9 @@ pub(crate) fn spans<T: Lanes, L: Solid>(
     let lines = rays.lines_in(frame, view.scene.program(), which);
     let now;
     let seen = match view.seen_before(place) {
-        None if view.shares_origin() => {
+        None => {
             now = view.see(solid, frame);
-            Some(&now)
+            now.as_ref()
         }
         before => before,
     };
@@ -106,8 +106,8 @@ impl<'v, L: Solid> Asked<'v, L> {
         self.frame = frame;
         self.negative = literal.negative;
         self.seen_before = view.seen_before(place);
-        if self.seen_before.is_none() && view.shares_origin() {
-            self.seen_now = Some(view.see(solid, frame));
+        if self.seen_before.is_none() {
+            self.seen_now = view.see(solid, frame);
         }
     }
 }

@@ -7,16 +7,17 @@ mod product;
 mod rays;
 mod reduce;
 mod shade;
+mod single;
 mod state;
 
 pub use pixels::{Pixel, TILE_PIXELS, TILE_SIDE, Tile};
+pub(crate) use single::{Found, cast_packet};
 pub(crate) use state::Workspace;
 
 use crate::lanes::Lanes;
-use crate::scene::{Beam, FANOUT, Form, Grid, Meets, View};
+use crate::scene::{Beam, FANOUT, Form, Grid, Meets, Picture, View};
 use crate::target::Wants;
 use gsdf_nostd::Solid;
-use rays::every_packet;
 
 /// Casts the rays through the pixels of the tile whose left upper pixel is (`x`, `y`), and tells how many hit something.
 #[inline(always)]
@@ -30,15 +31,33 @@ pub(crate) fn cast<T: Lanes, L: Solid>(
 ) -> u32 {
     work.rays.begin([x, y]);
     work.met.clear();
-    let beam = Beam::new(&view.raster, x, y, Grid::new(rays::height::<T>() as u32));
-    visit(token, view, &beam, work);
+    if let Some(Picture { raster, .. }) = &view.picture {
+        let beam = Beam::new(raster, x, y, Grid::new(rays::height::<T>() as u32));
+        visit(token, view, &beam, None, work);
+    }
     shade::shade(token, view, wants, work, tile)
 }
 
+/// What it takes to be content with any hit of the rays of a single packet.
+#[derive(Clone, Copy)]
+struct AnyHit<T: Lanes> {
+    /// The lanes that hold no ray.
+    others: T::Mask,
+    /// The latest parameter at which a ray starts. What is met later than that, none of them starts inside of.
+    latest_start: f32,
+}
+
 /// Casts the rays of a tile at all that they may meet, in the order in which that is least work: the parts with bounds,
-/// roughly from near to far; those without; and where rays start inside of a part, the whole program again.
+/// roughly from near to far; those without; and where rays start inside of a part, the whole program again. Where `any` hit
+/// will do it goes on only to what a ray may start in once all have met something.
 #[inline(always)]
-fn visit<T: Lanes, L: Solid, M: Meets<T>>(token: T::Token, view: &View<'_, '_, L>, rays: &M, work: &mut Workspace<T, L>) {
+fn visit<T: Lanes, L: Solid, M: Meets<T>>(
+    token: T::Token,
+    view: &View<'_, '_, L>,
+    rays: &M,
+    any: Option<AnyHit<T>>,
+    work: &mut Workspace<T, L>,
+) {
     let scene = view.scene;
     work.walk.begin(scene.tree());
     // The first part of the group at hand, and the bits of those of the group that are left.
@@ -46,6 +65,8 @@ fn visit<T: Lanes, L: Solid, M: Meets<T>>(token: T::Token, view: &View<'_, '_, L
     let mut unbounded = scene.unbounded();
     let mut at_start = true;
     let mut whole = false;
+    let mut settled = false;
+    let latest = any.as_ref().map_or(f32::INFINITY, |any| any.latest_start);
     loop {
         // There is one place where something is visited: what is inlined there is compiled once.
         let (which, leaves, form);
@@ -53,6 +74,9 @@ fn visit<T: Lanes, L: Solid, M: Meets<T>>(token: T::Token, view: &View<'_, '_, L
             let place = left.trailing_zeros() as usize % FANOUT;
             left &= left - 1;
             let met = &work.walk.met;
+            if settled && latest < met.near[place] {
+                continue;
+            }
             let open = work.met.open(&work.rays, met.touched[place], met.near[place]);
             match scene.part(first + place) {
                 Some(part) if open != 0 => (which, leaves, form) = (open, part.leaves.clone(), &part.form),
@@ -60,13 +84,14 @@ fn visit<T: Lanes, L: Solid, M: Meets<T>>(token: T::Token, view: &View<'_, '_, L
             }
         } else if !work.walk.is_over() {
             let far = if at_start { f32::INFINITY } else { work.met.farthest(&work.rays) };
+            let far = if settled { far.min(latest.next_up()) } else { far };
             at_start = false;
             if let Some(item) = work.walk.next::<T, M>(token, scene.tree(), rays, far) {
                 (first, left) = (item, work.walk.met.bits);
             }
             continue;
         } else if let Some(part) = unbounded.next().and_then(|number| scene.part(number)) {
-            (which, leaves, form) = (every_packet::<T>(), part.leaves.clone(), &part.form);
+            (which, leaves, form) = (work.rays.present(), part.leaves.clone(), &part.form);
         } else if work.met.inside != 0 && !whole {
             // Neither the split into parts nor the product holds there.
             whole = true;
@@ -78,6 +103,9 @@ fn visit<T: Lanes, L: Solid, M: Meets<T>>(token: T::Token, view: &View<'_, '_, L
         match form {
             Form::Product { positives, cuts } => product::cast(token, view, rays, leaves, *positives, scene.cuts(*cuts), which, work),
             form => march::cast(token, view, rays, leaves, form, which, work),
+        }
+        if let Some(any) = &any {
+            settled = work.met.all_met(0, any.others);
         }
     }
 }

@@ -3,7 +3,7 @@
 use super::pixels::{BLOCK_SIDE, TILE_SIDE};
 use crate::lanes::Lanes;
 use crate::packet::{Packet, scaled};
-use crate::scene::View;
+use crate::scene::{Picture, View};
 use gsdf_nostd::{Line, Program, Raster, Solid, Toward, V3};
 
 /// The most packets that a tile is made of: those of eight rays.
@@ -44,7 +44,8 @@ pub(crate) struct Rays<T: Lanes> {
     scales: [T; MOST_PACKETS],
     /// Where the rays start.
     starts: [T; MOST_PACKETS],
-    /// The packets that are aimed.
+    /// The packets that there are, and those that are aimed.
+    present: u32,
     aimed: u32,
     /// The left upper pixel of the tile.
     corner: [u32; 2],
@@ -74,6 +75,7 @@ impl<T: Lanes> Rays<T> {
             lines: [line; MOST_PACKETS],
             scales: [one; MOST_PACKETS],
             starts: [one; MOST_PACKETS],
+            present: 0,
             aimed: 0,
             corner: [0, 0],
             across: [ones; COLUMNS],
@@ -87,7 +89,20 @@ impl<T: Lanes> Rays<T> {
     /// Goes on to the tile with this left upper pixel. None of its rays is aimed yet.
     #[inline(always)]
     pub(crate) fn begin(&mut self, corner: [u32; 2]) {
-        (self.corner, self.aimed, self.posed) = (corner, 0, 0);
+        (self.corner, self.present, self.aimed, self.posed) = (corner, every_packet::<T>(), 0, 0);
+    }
+
+    /// Goes on to one packet of any rays.
+    #[inline(always)]
+    pub(crate) fn begin_with(&mut self, line: &Line<T>, scale: T, start: T) {
+        (self.present, self.aimed, self.posed) = (1, 1, 0);
+        (self.lines[0], self.scales[0], self.starts[0]) = (*line, scale, start);
+    }
+
+    /// The bits of the packets that there are.
+    #[inline(always)]
+    pub(crate) fn present(&self) -> u32 {
+        self.present
     }
 
     /// Aims the rays of some packets.
@@ -97,12 +112,12 @@ impl<T: Lanes> Rays<T> {
         if missing == 0 {
             return;
         }
-        let raster = &view.raster;
+        let Some(Picture { raster, valid }) = &view.picture else { return };
         if self.aimed == 0 {
             self.aim_columns_and_rows(token, raster);
         }
         self.aimed |= missing;
-        if !view.valid {
+        if !valid {
             self.aim_checked(token, raster, missing);
             return;
         }

@@ -38,22 +38,10 @@ pub(crate) fn shade<T: Lanes, L: Solid>(
         // What is infinite becomes `Pixel::NO_LEAF`.
         let leaf = T::select(hit, leaf, nothing);
         leaf.store_numbers(&mut tile.leaf[pixels.clone()]);
-        let waiting = hit.to_bits();
-        hits += waiting.count_ones();
+        hits += hit.to_bits().count_ones();
         if wants.normals | wants.faces {
-            let mut met = Surface {
-                normal: V3::new(zero, zero, zero),
-                face: zero,
-            };
-            // Each leaf that is met is asked once.
-            let mut waiting = waiting;
-            while waiting != 0 {
-                let number = tile.leaf[start + waiting.trailing_zeros() as usize % T::LANES];
-                let here = leaf.eq(T::splat(token, number as f32));
-                waiting &= !here.to_bits();
-                let own = leaf::surface(token, view, &mut asked, number, packet, &mut work.rays, t);
-                met = own.or_else(here & hit, met);
-            }
+            let numbers = &tile.leaf[pixels.clone()];
+            let met = surface(token, view, &mut asked, packet, numbers, hit, work);
             let [x, y, z] = &mut tile.normal;
             met.normal.x.store(&mut x[pixels.clone()]);
             met.normal.y.store(&mut y[pixels.clone()]);
@@ -64,6 +52,35 @@ pub(crate) fn shade<T: Lanes, L: Solid>(
         }
     }
     hits
+}
+
+/// The surfaces that the rays of a packet hit, those of the leaves of these numbers; zero where they hit none.
+#[inline(always)]
+pub(crate) fn surface<'v, T: Lanes, L: Solid>(
+    token: T::Token,
+    view: &'v View<'_, '_, L>,
+    asked: &mut leaf::Asked<'v, L>,
+    packet: usize,
+    numbers: &[u32],
+    hit: T::Mask,
+    work: &mut Workspace<T, L>,
+) -> Surface<T> {
+    let zero = T::splat(token, 0.0);
+    let (t, leaf) = work.met.packet(packet);
+    let mut met = Surface {
+        normal: V3::new(zero, zero, zero),
+        face: zero,
+    };
+    // Each leaf that is met is asked once.
+    let mut waiting = hit.to_bits();
+    while waiting != 0 {
+        let number = numbers[waiting.trailing_zeros() as usize % T::LANES];
+        let here = leaf.eq(T::splat(token, number as f32));
+        waiting &= !here.to_bits();
+        let own = leaf::surface(token, view, asked, number, packet, &mut work.rays, t);
+        met = own.or_else(here & hit, met);
+    }
+    met
 }
 
 /// Writes that some pixels show nothing.

@@ -1,6 +1,6 @@
 //! What is known of a tile while its parts are visited, and where it is kept.
 
-use super::rays::{MOST_PACKETS, Rays, every_packet, packets};
+use super::rays::{MOST_PACKETS, Rays};
 use crate::lanes::Lanes;
 use crate::scene::Walk;
 use gsdf_nostd::{Mask, Node, Span};
@@ -99,16 +99,27 @@ impl<T: Lanes> Met<T> {
     /// The depth beyond which no ray of the tile looks for anything.
     #[inline(always)]
     pub(crate) fn farthest(&self, rays: &Rays<T>) -> f32 {
-        if self.touched != every_packet::<T>() {
+        if self.touched != rays.present() {
             return f32::INFINITY;
         }
         let (_, scale, _) = rays.packet(0);
         let mut farthest = self.t[0] * scale;
-        for packet in 1..packets::<T>() {
+        let mut bits = self.touched & !1;
+        while bits != 0 {
+            let packet = bits.trailing_zeros() as usize % MOST_PACKETS;
+            bits &= bits - 1;
             let (_, scale, _) = rays.packet(packet);
-            farthest = farthest.max(self.t[packet % MOST_PACKETS] * scale);
+            farthest = farthest.max(self.t[packet] * scale);
         }
         farthest.greatest()
+    }
+
+    /// Whether every ray of a packet but those in some lanes has met something.
+    #[inline(always)]
+    pub(crate) fn all_met(&self, packet: usize, others: T::Mask) -> bool {
+        let packet = packet % MOST_PACKETS;
+        let infinity = self.leaf[packet].splat_like(f32::INFINITY);
+        (self.leaf[packet].lt(infinity) | others).all()
     }
 }
 
