@@ -18,6 +18,6 @@ pub mod table;
 mod trial;
 
 pub use corpus::{Corpus, Target};
-pub use measure::{Cell, Measured, WELL_CONDITIONED, is_curved};
+pub use measure::{Cell, Measured, PART, WELL_CONDITIONED, is_curved};
 pub use statistics::{Statistics, Summary, Worst};
 pub use trial::{Arithmetic, Placed, Reference, Trial};
