@@ -73,7 +73,7 @@ impl Arguments {
         if let Some(path) = &self.chart {
             let svg = chart::svg()?;
             write(path, &svg)?;
-            write(&path.with_extension("md"), &chart::markdown(&svg))?;
+            write(&path.with_extension("md"), chart::markdown(&svg))?;
             return Ok(Outcome::Kept);
         }
         if let (Some(bounds), Some(record)) = (&self.bounds, &self.record) {

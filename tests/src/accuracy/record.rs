@@ -42,7 +42,7 @@ impl Record {
             return Ok(Self::default());
         }
         let mut rows = csv::Reader::from_path(path)?;
-        if rows.headers()? != &COLUMNS[..] {
+        if rows.headers()? != COLUMNS[..] {
             return Err(format!("{}: its columns are not those of a record: {}", path.display(), COLUMNS.join(",")).into());
         }
         let mut record = BTreeMap::new();

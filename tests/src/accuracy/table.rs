@@ -50,7 +50,7 @@ fn rows() -> &'static [Row] {
 
 fn parsed(text: &str) -> Result<Vec<Row>, Box<dyn Error>> {
     let mut reader = csv::Reader::from_reader(text.as_bytes());
-    if reader.headers()? != &COLUMNS[..] {
+    if reader.headers()? != COLUMNS[..] {
         return Err("the columns are not those of bounds".into());
     }
     let row = |row: Result<csv::StringRecord, csv::Error>| {

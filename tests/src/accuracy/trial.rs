@@ -209,6 +209,13 @@ impl Reference {
         self.doubled.condition(ray, t, t.distance_to(found), roundoff, inputs)
     }
 
+    /// How many rounding errors a place of a ray is from the nearest surface: see [`Solid::nearness`].
+    #[must_use]
+    pub fn nearness(&self, ray: (Vec3, Vec3), t: f64, roundoff: f64) -> f64 {
+        let inputs = self.inputs.get_or_init(|| self.inputs());
+        self.doubled.nearness(ray, t, roundoff, inputs)
+    }
+
     /// What every number is worth that the solid is given by.
     fn inputs(&self) -> Vec<Input> {
         let mut values = Vec::new();
