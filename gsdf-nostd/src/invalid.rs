@@ -49,7 +49,8 @@ pub enum Fault {
     Contained,
     /// Vectors that coincide, vanish or are parallel where they must not be.
     Degenerate,
-    /// A matrix without an inverse, or one that stretches by more than 2^10 or less than 2^-10; the number found is
+    /// A matrix without an inverse, or one that stretches by more than 2^20 or less than 2^-20, or some lengths 2^20 times
+    /// as much as others; the number found is
     /// its determinant.
     Singular,
 }
@@ -95,7 +96,7 @@ impl Invalid {
             Fault::NotConvex => "four corners are not in order around a convex figure: reorder them, or use two triangles",
             Fault::Contained => "one sphere contains the other: use the larger one alone",
             Fault::Degenerate => "points coincide or directions are parallel: move them apart",
-            Fault::Singular => "a matrix has no inverse, or stretches by more than 2^10 or less than 2^-10",
+            Fault::Singular => "a matrix has no inverse, or stretches by more than 2^20 or less than 2^-20, or unequally by more than 2^20",
         }
     }
 }

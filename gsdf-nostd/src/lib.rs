@@ -61,7 +61,7 @@
 //!
 //! # Range
 //! Coordinates and sizes up to 2<sup>30</sup>, sizes from 2<sup>-20</sup>, transforms that stretch by at most
-//! 2<sup>10</sup>; directions from 2<sup>-40</sup> to 2<sup>40</sup>. What lies outside is refused with an error that
+//! 2<sup>20</sup> either way, and lengths as unequally; directions from 2<sup>-40</sup> to 2<sup>40</sup>. What lies outside is refused with an error that
 //! says so, at compile time where a scene is `const`. A scene at 1e-30 or 1e30, and rays of any speed, are measured in a
 //! [`Unit`] of their own: exactly, and with the same relative results.
 //!
@@ -143,6 +143,6 @@ pub use shape::{BoxFrame, DoubleCone, WideSolidAngle};
 pub use span::Span;
 pub use toward::{Toward, reciprocal_speed};
 pub use trace::{Field, SphereTracer, Traced};
-pub use transform::Transform;
+pub use transform::{LocalLine, Transform};
 pub use unit::Unit;
 pub use vec3::V3;

@@ -1,8 +1,10 @@
 //! The range of numbers in which every formula of this crate is free of overflow and of harmful underflow.
 //!
-//! With coordinates up to 2^30, transforms that stretch by at most 2^10 either way and ray directions scaled exactly
-//! to a largest component in [1, 2), no product of a formula exceeds 2^114, and the discriminant of a solid of the
-//! least size keeps its leading bits above the smallest normal number. What lies outside is refused where it is made
+//! With coordinates up to 2^30 and ray directions scaled exactly to a largest component in [1, 2) no product of a formula
+//! exceeds 2^84, and the discriminant of a solid of the least size keeps its leading bits above the smallest normal number.
+//! Transforms that stretch by at most 2^20 either way take coordinates to 2^52, and directions, again scaled exactly
+//! ([`LocalLine`](crate::LocalLine)), to a length of at most 4 and a largest component of at least 2^-12: the largest
+//! product, of the discriminant of a rounded cone's side, is then below 2^125. What lies outside is refused where it is made
 //! ([`Invalid`](crate::Invalid), [`RayError`](crate::RayError)), so that no query has to look, and none returns a
 //! silent wrong answer.
 
@@ -18,8 +20,8 @@ pub const MIN_LENGTH: f32 = 1.0 / 1_048_576.0;
 /// its length.
 pub const UNIT_TOLERANCE: f64 = 1.0 / 2_097_152.0;
 
-/// The factor by which a transform may stretch a length, and its inverse: 2^10.
-pub const MAX_STRETCH: f32 = 1024.0;
+/// The factor by which a transform may stretch a length, its inverse, and how much more one length than another: 2^20.
+pub const MAX_STRETCH: f32 = 1_048_576.0;
 
 /// A ray whose speed towards a plane is below this, in units of a direction with components up to 2, is taken as
 /// parallel to it: 2^-100.

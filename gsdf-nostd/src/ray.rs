@@ -1,7 +1,8 @@
 //! Rays, refused when they are not rays.
 
 use crate::range::{MAX_LENGTH, MAX_SPEED, max_norm, max_norm_bits, unit_scale};
-use crate::real::Real;
+use crate::real::{Lane, Real};
+use crate::span::Span;
 use crate::toward::Toward;
 use crate::vec3::V3;
 use core::fmt;
@@ -167,6 +168,19 @@ impl Ray {
     pub fn start_on_line<T: Real>(self, like: T) -> T {
         let start = like.splat_like(self.range.0);
         self.parameter_on_line(start.max(like.splat_like(f32::MIN_POSITIVE)))
+    }
+
+    /// The next end of a span on [`line`](Self::line) from the origin on, in the parameter of this ray, with the sign that
+    /// [`Span::signed_crossing`] gives it.
+    #[inline]
+    pub fn signed_crossing<T: Lane>(&self, span: Span<T>) -> T {
+        let found = self.parameter_of(span.signed_crossing(T::from(0.0)));
+        if found.abs() > T::from(f32::MIN_POSITIVE) {
+            return found;
+        }
+        // As rare as it is it need not be cheap.
+        let start = self.parameter_on_line(T::from(f32::MIN_POSITIVE));
+        self.parameter_of(span.signed_crossing(start))
     }
 
     /// The parameter of this ray that belongs to a parameter on [`line`](Self::line); exact unless it overflows to

@@ -1,17 +1,19 @@
 //! Motions and other affine maps, applied to the ray instead of to the solid.
 
 use crate::invalid::{Fault, Invalid, point};
-use crate::range::MAX_STRETCH;
+use crate::range::{MAX_STRETCH, unit_scale};
 use crate::ray::Line;
 use crate::real::Real;
+use crate::span::Span;
 use crate::toward::Toward;
 use crate::vec3::V3;
 use glam::{Mat3, Vec3};
 
 /// An affine map from a local frame to the world, stored as its inverse.
 ///
-/// A ray keeps its parameter under an affine map: the solid stays as it is, in numbers as round as its author wrote
-/// them, and the ray comes to it. Solids that share a face in their local frame share it in every pose, to the bit.
+/// A ray keeps its parameter under an affine map, up to a power of two that is chosen here: the solid stays as it is, in
+/// numbers as round as its author wrote them, and the ray comes to it. Solids that share a face in their local frame share
+/// it in every pose, to the bit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Transform {
     /// The rows of the matrix that takes world vectors to local ones.
@@ -20,7 +22,52 @@ pub struct Transform {
     translation: Vec3,
     /// A lower bound on the factor by which the map stretches any length.
     stretch: f32,
+    /// A power of two, about half as large: times it no local vector is longer than the world's.
+    slow: f32,
 }
+
+/// A line of the world in the frame of a [`Transform`].
+///
+/// Its direction is that of the world's line in the frame times a power of two, so that nothing of it is larger than four or
+/// all of it less than 2^-12, however much the transform stretches: products of the formulas stay in range. What the line
+/// says of its parameter is taken back exactly.
+#[derive(Clone, Copy, Debug)]
+pub struct LocalLine<T> {
+    /// The line.
+    pub line: Line<T>,
+    /// The power of two; also that by which its parameters are larger than those of the world's line.
+    scale: T,
+}
+
+impl<T: Real> LocalLine<T> {
+    /// The world's line itself.
+    #[inline(always)]
+    pub(crate) fn of_world(world: &Line<T>) -> Self {
+        Self {
+            line: *world,
+            scale: world.toward.vv.splat_like(1.0),
+        }
+    }
+
+    /// A span of this line in the parameter of the world's; exact unless it overflows, or falls below the normal numbers.
+    #[inline(always)]
+    pub fn span_in_world(&self, span: Span<T>) -> Span<T> {
+        Span {
+            enter: span.enter * self.scale,
+            exit: span.exit * self.scale,
+        }
+    }
+
+    /// The parameter on this line that belongs to one of the world's, as exact.
+    #[inline(always)]
+    pub fn parameter(&self, t: T) -> T {
+        t / self.scale
+    }
+}
+
+/// By what a direction is lengthened that a transform shrinks so much more than others that it is still shorter than the
+/// inverse.
+const LENGTHENED: f32 = 1024.0;
 
 impl Transform {
     /// The map that moves nothing.
@@ -28,6 +75,7 @@ impl Transform {
         to_local: [Vec3::X, Vec3::Y, Vec3::Z],
         translation: Vec3::ZERO,
         stretch: 1.0,
+        slow: 0.5,
     };
 
     /// The map that takes the local origin to `translation`.
@@ -51,7 +99,8 @@ impl Transform {
     ///
     /// # Errors
     /// Where a number is not finite, the translation is beyond ±2^30, or the matrix has no inverse or stretches some
-    /// length by more than 2^10 or less than 2^-10.
+    /// length by more than 2^20 or less than 2^-20, or one 2^20 times as much as another: of a direction that is shrunk so
+    /// much more than others rounding leaves nothing.
     pub const fn affine(matrix: Mat3, translation: Vec3) -> Result<Self, Invalid> {
         if let Err(error) = point("translation", translation) {
             return Err(error);
@@ -78,15 +127,17 @@ impl Transform {
             narrow(rows[2], determinant),
         ];
         let inverse_stretch = spectral_norm([wide(to_local[0]), wide(to_local[1]), wide(to_local[2])]);
-        // A little more than 2^10, so that rounding does not refuse an exact 2^10.
+        // A little more than 2^20, so that rounding does not refuse an exact 2^20.
         let most = MAX_STRETCH as f64 * 1.001_f64;
-        if !(inverse_stretch <= most && spectral_norm(m) <= most) {
+        let stretch = spectral_norm(m);
+        if !(inverse_stretch <= most && stretch <= most && inverse_stretch * stretch <= most) {
             return singular;
         }
         Ok(Self {
             to_local,
             translation,
             stretch: (1.0 / inverse_stretch) as f32,
+            slow: 0.5 * unit_scale(inverse_stretch as f32),
         })
     }
 
@@ -126,12 +177,21 @@ impl Transform {
         )
     }
 
-    /// A world line in the local frame, with the same parameter.
+    /// A world line in the local frame.
     #[inline(always)]
-    pub fn line_to_local<T: Real>(&self, line: &Line<T>) -> Line<T> {
-        Line {
-            origin: self.point_to_local(line.origin),
-            toward: Toward::new(self.vector_to_local(line.toward.v)),
+    pub fn line_to_local<T: Real>(&self, line: &Line<T>) -> LocalLine<T> {
+        let like = line.toward.vv;
+        let v = self.vector_to_local(line.toward.v);
+        let largest = v.x.abs().max(v.y.abs()).max(v.z.abs());
+        let longer = like.splat_like(self.slow * LENGTHENED);
+        let is_short = (largest * longer).le(like.splat_like(1.0));
+        let scale = T::select(is_short, longer, like.splat_like(self.slow));
+        LocalLine {
+            line: Line {
+                origin: self.point_to_local(line.origin),
+                toward: Toward::new(v.scaled(scale)),
+            },
+            scale,
         }
     }
 
@@ -278,14 +338,25 @@ mod tests {
         for matrix in [
             Mat3::ZERO,
             Mat3::from_cols(Vec3::X, Vec3::X, Vec3::Z),
-            Mat3::from_diagonal(vec3(1.0, 1.0, 1e-4)),
-            Mat3::from_diagonal(vec3(2000.0, 1.0, 1.0)),
+            Mat3::from_diagonal(vec3(1.0, 1.0, 9e-7)),
+            Mat3::from_diagonal(vec3(1.1e6, 1.0, 1.0)),
+            Mat3::from_diagonal(vec3(1100.0, 1.0, 9e-4)),
+            Mat3::from_diagonal(Vec3::splat(1.1e6)),
+            Mat3::from_diagonal(Vec3::splat(9e-7)),
         ] {
             let error = Transform::affine(matrix, Vec3::ZERO).unwrap_err();
             assert_eq!(error.fault(), Fault::Singular);
         }
         assert!(Transform::affine(Mat3::from_diagonal(vec3(f32::NAN, 1.0, 1.0)), Vec3::ZERO).is_err());
         assert!(Transform::affine(Mat3::IDENTITY, vec3(f32::INFINITY, 0.0, 0.0)).is_err());
-        assert!(Transform::affine(Mat3::from_diagonal(vec3(1024.0, 1.0 / 1024.0, 1.0)), Vec3::ZERO).is_ok());
+        let most = 1_048_576.0;
+        for diagonal in [
+            vec3(1024.0, 1.0 / 1024.0, 1.0),
+            vec3(most, 1.0, 1.0),
+            Vec3::splat(most),
+            Vec3::splat(1.0 / most),
+        ] {
+            assert!(Transform::affine(Mat3::from_diagonal(diagonal), Vec3::ZERO).is_ok(), "{diagonal}");
+        }
     }
 }

@@ -168,6 +168,41 @@ pub fn random_affine(rng: &mut impl Rng, most: f64) -> Transform {
     Transform::affine(second * stretch * first, translation).expect("the factors are within the range of transforms")
 }
 
+/// A random affine map out of all the library takes: uniform scales of 2^-20 to 2^20, shears of up to a thousand, and
+/// unequal scales; turned, and moved by no more than ten times what a length of one becomes.
+///
+/// # Panics
+/// Never: the factors are within the range of transforms.
+pub fn random_stretch(rng: &mut impl Rng) -> Transform {
+    // Just within the limits, which rounding must not pass.
+    const MOST: f64 = 1e6;
+    let mut turn = || Mat3::from_quat(Quat::from_axis_angle(unit(rng).as_vec3().normalize(), rng.random_range(-3.2..3.2)));
+    let (first, second) = (turn(), turn());
+    let (matrix, size) = match rng.random_range(0..3) {
+        0 => {
+            let factor = if rng.random() {
+                log_uniform(rng, 1.0 / MOST, MOST)
+            } else {
+                [MOST, 1.0 / MOST][rng.random_range(0..2)]
+            };
+            (first * factor as f32, factor)
+        }
+        1 => {
+            // A shear by k stretches by about k at the most, and by its inverse at the least.
+            let (shear, factor) = (log_uniform(rng, 1.0, 900.0), log_uniform(rng, 1e-3, 1e3));
+            let sheared = Mat3::from_cols(Vec3::X, Vec3::new(shear as f32, 1.0, 0.0), Vec3::Z);
+            (second * sheared * first * factor as f32, factor)
+        }
+        _ => {
+            let least = log_uniform(rng, 1.0 / MOST, 1.0);
+            let mut factor = || log_uniform(rng, least, least * MOST * 0.9) as f32;
+            (second * Mat3::from_diagonal(Vec3::new(factor(), factor(), factor())) * first, least)
+        }
+    };
+    let translation = (unit(rng) * rng.random_range(0.0..10.0) * size).as_vec3();
+    Transform::affine(matrix, translation).expect("the factors are within the range of transforms")
+}
+
 /// A place where a posed solid's boundary is crossed, according to the reference.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Expected {
@@ -279,7 +314,12 @@ impl Posed {
             .as_dmat3()
             .inverse();
         let columns = inverse.to_cols_array();
-        columns.iter().map(|entry| entry * entry).sum::<f64>().sqrt().min(1024.0)
+        columns
+            .iter()
+            .map(|entry| entry * entry)
+            .sum::<f64>()
+            .sqrt()
+            .min(gsdf_nostd::MAX_STRETCH.into())
     }
 
     /// Whether a computed crossing is as deep as that of the reference, or within `roundings` rounding errors of the

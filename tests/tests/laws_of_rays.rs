@@ -207,6 +207,57 @@ fn from_the_other_end_a_grid_is_the_same_to_the_bit() {
     assert!(met > 10_000 && tied > 3_000, "{met}, {tied}");
 }
 
+/// A solid in a frame of another size is, where that is a power of two, the solid in the world: the numbers that meet are
+/// 2^20 times as large or as small, and nothing of them is lost.
+#[test]
+fn a_frame_of_another_size_changes_no_bit() {
+    let hits: usize = (0..4_000_u64)
+        .into_par_iter()
+        .map(|seed| {
+            let mut rng = Pcg64::seed_from_u64(seed);
+            let kind = rng.random_range(0..KINDS.len());
+            // In the frame sizes are from 2^-20 to 2^30 too.
+            let exponent = rng.random_range(-20..=20);
+            let size = f64::from(exponent.max(0)).exp2() * log_uniform(&mut rng, 4.0, 64.0);
+            let shape = Shape::random(&mut rng, kind, size, 2.0);
+            let local = shape.measured(|length| length * 2.0_f32.powi(-exponent));
+            let Ok(solid) = local.leaf() else { return 0 };
+            let pose = Transform::affine(Mat3::from_diagonal(Vec3::splat(2.0_f32.powi(exponent))), Vec3::ZERO).unwrap();
+            let (here, there) = ([Node::leaf(shape.leaf().unwrap())], [Node::Leaf { solid, frame: 1 }]);
+            let scene = |solid| Scene {
+                solids: vec![(solid, 0)],
+                tree: Tree::Leaf(0),
+                poses: [pose, Transform::IDENTITY],
+            };
+            let mut count = 0;
+            for _ in 0..8 {
+                let reach = if rng.random() { 1e2 } else { 3e8 / size };
+                let (_, trial) = corpus::ray(&mut rng, &shape, size, reach);
+                let Ok(ray) = Ray::new(trial.origin, trial.direction) else {
+                    continue;
+                };
+                let (hits, found) = (scene(shape).hits(&here, ray), scene(local).hits(&there, ray));
+                // A facet's thickness next to the start is no share of anything.
+                if shape.is_facet() && hits.iter().chain(&found).any(|hit| hit.t < 1e-15) {
+                    continue;
+                }
+                let what = || format!("seed {seed}: {found:?}, not {hits:?} along {ray:?}: {shape:?} at 2^{exponent}");
+                assert_eq!(found.len(), hits.len(), "{}", what());
+                for (found, hit) in found.iter().zip(&hits) {
+                    // A normal that comes to the world is made of unit length once more.
+                    assert!((found.normal - hit.normal).length() < 3e-7, "{}", what());
+                    let mut turned = *found;
+                    turned.normal = hit.normal;
+                    assert_eq!(bits(&turned), bits(hit), "{}", what());
+                }
+                count += hits.len();
+            }
+            count
+        })
+        .sum();
+    assert!(hits > 20_000, "{hits}");
+}
+
 /// A hit with its parameter and its point in other units.
 fn in_unit(mut hit: Hit, of_parameter: f32, of_length: f32) -> Hit {
     hit.t *= of_parameter;

@@ -47,8 +47,8 @@ impl<T: Lane> Row<T> {
             Self::of_scene(&S1, |scratch| picture(&S1, scratch), 0xb8ca_21da_c51e_8a15),
             Self::of_scene(&S2, |scratch| picture(&S2, scratch), 0x3c48_0aa8_a7b5_ceb9),
             Self::of_scene(&S3, |scratch| picture(&S3, scratch), 0x3a43_415d_1f94_7124),
-            Self::of_corpus("corpus", corpus::hits, 0xd9fe_2cd3_253b_6ec5),
-            Self::of_corpus("corpus-readings", corpus::readings, 0x9c40_d42c_9040_8288),
+            Self::of_corpus("corpus", corpus::hits, 0xa0d7_f7b7_889a_901c),
+            Self::of_corpus("corpus-readings", corpus::readings, 0xf375_7a14_e5ac_19f0),
         ]
     }
 

@@ -170,7 +170,7 @@ pub fn of_leaves<T: Lane>(arithmetic: &'static str, meter: &mut impl Meter) -> R
 /// [`Solid::gsdf`] in the arithmetic of `like`.
 fn gsdf<S: Solid, T: Lane>(solid: &S, p: Vec3, v: Vec3, like: T) -> T {
     match Ray::new(p, v) {
-        Ok(ray) => ray.parameter_of(solid.span_along(&ray.line(like)).signed_crossing(ray.start_on_line(like))),
+        Ok(ray) => ray.signed_crossing(solid.span_along(&ray.line(like))),
         Err(_) => T::from(f32::NAN),
     }
 }

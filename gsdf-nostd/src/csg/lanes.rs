@@ -8,14 +8,14 @@ use crate::leaf::{Solid, Surface};
 use crate::ray::Line;
 use crate::real::{Lane, Mask, Real};
 use crate::span::Span;
-use crate::transform::Transform;
+use crate::transform::{LocalLine, Transform};
 use crate::vec3::V3;
 
 /// A line in the world and in the frame of the last leaf, where the next one probably is too.
 struct Framed<T> {
     world: Line<T>,
     frame: u16,
-    local: Line<T>,
+    local: LocalLine<T>,
 }
 
 impl<T: Real> Framed<T> {
@@ -24,7 +24,7 @@ impl<T: Real> Framed<T> {
         Self {
             world: *world,
             frame: 0,
-            local: *world,
+            local: LocalLine::of_world(world),
         }
     }
 
@@ -36,7 +36,7 @@ impl<T: Real> Framed<T> {
             self.frame = frame;
             self.local = match pose {
                 Some(pose) => pose.line_to_local(&self.world),
-                None => self.world,
+                None => LocalLine::of_world(&self.world),
             };
         }
         pose
@@ -66,7 +66,8 @@ impl<L: Solid> Program<'_, L> {
             let Node::Leaf { solid, frame } = node else { continue };
             let Some(span) = spans.next() else { break };
             let pose = framed.enter(*frame, self);
-            *span = footing.span(number, solid, &framed.local, pose);
+            let own = footing.span(number, solid, &framed.local.line, pose);
+            *span = if pose.is_some() { framed.local.span_in_world(own) } else { own };
             number += 1;
         }
     }
@@ -92,7 +93,8 @@ impl<L: Solid> Program<'_, L> {
             let here = leaf.eq(t.splat_like(number as f32));
             if here.any() {
                 let pose = framed.enter(*frame, self);
-                let own = footing.surface(number, solid, &framed.local, pose, t);
+                let own_t = if pose.is_some() { framed.local.parameter(t) } else { t };
+                let own = footing.surface(number, solid, &framed.local.line, pose, own_t);
                 let outward = match pose {
                     Some(pose) => pose.normal_to_world(own.normal),
                     None => own.normal,

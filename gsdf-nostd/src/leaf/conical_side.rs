@@ -31,6 +31,13 @@ pub struct SeenCone<T> {
     c: T,
 }
 
+/// A cone is nearly a plane where the square of the tangent of its half-angle is more than this: within a thirtieth of a
+/// right one.
+const FLAT: f32 = 1024.0;
+
+/// A ray is steep to a side where the square of its slope is so many times that of the side.
+const STEEP: f32 = 16.0;
+
 impl<T: Real> SeenCone<T> {
     /// The side seen from the point at `w` from the reference point.
     #[inline(always)]
@@ -72,6 +79,9 @@ impl<T: Real> SeenCone<T> {
     /// = k² (|R V - G W|² - k² |W x V|²)`, in which no large terms cancel either. (Where `A C <= 0` the first form is
     /// a sum.)
     ///
+    /// Of a cone that is nearly a plane the apex is no place to go to: it may be far from where a steep ray crosses the side,
+    /// and the way there and back costs roundings of its length. There nothing cancels from where the ray comes.
+    ///
     /// A ray steeper than the side (`A < 0`) meets both nappes once, a shallower one meets one of them twice; one
     /// parallel to a generatrix has `A = 0`, which sends one root to infinity by itself. What lies on the other nappe
     /// is cut off where `R` vanishes. A ray along the axis of a side that hardly widens sees no change at all.
@@ -79,19 +89,20 @@ impl<T: Real> SeenCone<T> {
     pub(super) fn span(&self, profile: &Profile<T>, toward: &Toward<T>) -> Span<T> {
         let zero = self.c.splat_like(0.0);
         let infinity = zero.splat_like(f32::INFINITY);
+        let v = toward.v.cross(profile.axis);
+        let growth = profile.s * toward.v.dot(profile.axis);
+        let k2 = profile.k.squared();
+        let (across2, growth2) = (k2 * v.norm_squared(), growth.squared());
         let (shift, near) = if T::ROBUST {
-            let shift = -(self.w.dot(toward.v) * toward.per_vv);
+            let flat = (k2 * zero.splat_like(FLAT)).lt(profile.s.squared()) & (across2 * zero.splat_like(STEEP)).lt(growth2);
+            let shift = T::select(flat, zero, -(self.w.dot(toward.v) * toward.per_vv));
             (shift, self.w + toward.v.scaled(shift))
         } else {
             (zero, self.w)
         };
 
         let w = near.cross(profile.axis);
-        let v = toward.v.cross(profile.axis);
         let radius = profile.r + profile.s * near.dot(profile.axis);
-        let growth = profile.s * toward.v.dot(profile.axis);
-        let k2 = profile.k.squared();
-        let (across2, growth2) = (k2 * v.norm_squared(), growth.squared());
         let a = across2 - growth2;
         let b = k2 * w.dot(v) - growth * radius;
         let c = k2 * w.norm_squared() - radius.squared();

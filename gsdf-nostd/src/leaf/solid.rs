@@ -135,7 +135,7 @@ pub trait Solid: Copy {
     #[must_use]
     fn gsdf(&self, p: Vec3, v: Vec3) -> f32 {
         match Ray::new(p, v) {
-            Ok(ray) => ray.parameter_of(self.span_along(&ray.line(0.0_f32)).signed_crossing(ray.start_on_line(0.0))),
+            Ok(ray) => ray.signed_crossing(self.span_along(&ray.line(0.0_f32))),
             Err(_) => f32::NAN,
         }
     }

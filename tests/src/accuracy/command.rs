@@ -2,10 +2,9 @@
 
 use super::chart;
 use super::corpus::Corpus;
-use super::measure::Cell;
+use super::measure::{Cell, PART};
 use super::record::Record;
-use super::statistics::Summary;
-use super::table::{allowed, floors, recorded_verdict, verdict, write_bounds};
+use super::table::{allowed, floors, verdict, write_bounds};
 use super::trial::{Arithmetic, Reference};
 use crate::shape::KINDS;
 use clap::builder::PossibleValuesParser;
@@ -26,7 +25,7 @@ use std::time::Instant;
 #[command(name = "accuracy", version)]
 pub struct Arguments {
     /// Rays in each cell of the table, those included that a record already has
-    #[arg(long, value_name = "N", default_value_t = 36_901, value_parser = value_parser!(u64).range(1..))]
+    #[arg(long, value_name = "N", default_value_t = PART, value_parser = value_parser!(u64).range(1..))]
     rays: u64,
     /// Kinds of leaves, separated by commas [default: all]
     #[arg(long, value_name = "NAMES", value_delimiter = ',', value_parser = PossibleValuesParser::new(KINDS))]
@@ -74,7 +73,7 @@ impl Arguments {
         if let Some(path) = &self.chart {
             let svg = chart::svg()?;
             write(path, &svg)?;
-            write(&path.with_extension("md"), &chart::markdown(&svg))?;
+            write(&path.with_extension("md"), chart::markdown(&svg))?;
             return Ok(Outcome::Kept);
         }
         if let (Some(bounds), Some(record)) = (&self.bounds, &self.record) {
@@ -107,13 +106,12 @@ impl Arguments {
         let mut out = io::stdout().lock();
         let mut breaches = Vec::new();
         for &cell in cells {
-            let measured = cell.measure(0..self.rays, floors(cell));
-            progress.suspend(|| {
-                print(&mut out, cell, |arithmetic| {
-                    Some(measured.statistics[arithmetic as usize].summary())
-                })
-            })?;
-            breaches.extend(verdict(cell, &measured));
+            let mut record = Record::default();
+            for first in (0..self.rays).step_by(PART as usize) {
+                record.add(cell, &cell.measure(first..(first + PART).min(self.rays), floors(cell)));
+            }
+            progress.suspend(|| print(&mut out, cell, &record))?;
+            breaches.extend(verdict(cell, &record));
             progress.step(self.rays, breaches.len());
         }
         self.conclude(&mut out, &progress, &breaches)
@@ -121,11 +119,11 @@ impl Arguments {
 
     /// Goes on with a record until it holds all the rays, and holds what it then says to the table.
     ///
-    /// The file is written after every cell, and all cells are as far as the others but for one round: so a run may end at
+    /// The file is written after every cell, and all cells are as far as the others but for one part: so a run may end at
     /// any time, and the next one goes on where it was.
     fn extend(&self, cells: &[Cell], path: &Path) -> Result<Outcome, Box<dyn Error>> {
         let mut record = Record::read(path)?;
-        let ends = || (1..=self.rays.div_ceil(ROUND)).map(|round| (round * ROUND).min(self.rays));
+        let ends = || (1..=self.rays.div_ceil(PART)).map(|part| (part * PART).min(self.rays));
         let missing: Vec<(Cell, u64)> = ends()
             .flat_map(|end| cells.iter().map(move |&cell| (cell, end)))
             .filter(|&(cell, end)| record.rays(cell) < end)
@@ -139,7 +137,7 @@ impl Arguments {
             record.add(cell, &measured);
             record.write(path)?;
             // At once: a long run that breaks the table need not be waited for.
-            for breach in verdict(cell, &measured) {
+            for breach in verdict(cell, &Record::of(cell, &measured)) {
                 breaches += 1;
                 progress.suspend(|| eprintln!("BREACH {breach}"));
             }
@@ -148,8 +146,8 @@ impl Arguments {
         let mut out = io::stdout().lock();
         let mut breaches = Vec::new();
         for &cell in cells {
-            print(&mut out, cell, |arithmetic| record.get(cell, arithmetic).copied())?;
-            breaches.extend(recorded_verdict(cell, &record));
+            print(&mut out, cell, &record)?;
+            breaches.extend(verdict(cell, &record));
         }
         self.conclude(&mut out, &progress, &breaches)
     }
@@ -170,9 +168,6 @@ impl Arguments {
 
 /// After how many cells a line says how far it got.
 const CHECKPOINT: u64 = 16;
-
-/// How many rays of a cell are measured before those of the next, where a record is written.
-const ROUND: u64 = 1 << 18;
 
 /// How far a run is.
 struct Progress {
@@ -234,13 +229,13 @@ fn missing(leaves: &[String], corpora: &[String]) -> Vec<String> {
         .collect()
 }
 
-fn print(out: &mut impl Write, cell: Cell, found: impl Fn(Arithmetic) -> Option<Summary>) -> io::Result<()> {
+fn print(out: &mut impl Write, cell: Cell, record: &Record) -> io::Result<()> {
     for arithmetic in cell.arithmetics() {
-        let Some(found) = found(arithmetic) else { continue };
+        let Some(found) = record.get(cell, arithmetic) else { continue };
         let (name, corpus) = (KINDS[cell.leaf], cell.corpus.name());
         let most = allowed(cell, arithmetic).map_or([f64::NAN; 4], |row| [row.wrong, row.p99, row.most, row.conditioned]);
         write!(out, "{name:16} {corpus:16} {:6}", arithmetic.name())?;
-        let values = [found.wrong_share(), found.p99, found.most.error, found.conditioned.error];
+        let values = [found.wrong_share, found.p99, found.most.error, found.conditioned.error];
         for (value, most) in values.iter().zip(most) {
             write!(out, "  {:>8} /{:>8}", short(*value), short(most))?;
         }

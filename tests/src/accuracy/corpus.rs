@@ -2,7 +2,7 @@
 
 use super::trial::{Placed, Trial};
 use crate::corpus::jittered;
-use crate::poses::random_affine;
+use crate::poses::{random_affine, random_stretch};
 use crate::shape::{KINDS, SOLIDS, Shape, across, log_uniform, unit};
 use glam::{DMat3, DVec3, Vec3};
 use gsdf_nostd::{Ray, Transform, Unit};
@@ -67,6 +67,8 @@ corpora! {
     Close = "close",
     /// In frames that are turned, sheared, and scaled by up to 2^10 either way.
     Posed = "posed",
+    /// In frames that are scaled by up to 2^20 either way, or sheared, or stretch some lengths 2^20 times as much as others.
+    Stretched = "stretched",
     /// Scenes at 1e-30, at 1e30, and with coordinates to a quarter of the largest number, in a unit of their own, along
     /// directions as far out of range.
     Units = "units",
@@ -131,7 +133,11 @@ impl Target {
             if shape.leaf().is_ok() {
                 let surface = (0..8).map(|_| shape.surface(rng)).collect();
                 let edges = (0..4).map(|_| shape.edge_point(rng)).collect();
-                let pose = (corpus == Corpus::Posed).then(|| random_affine(rng, 1000.0));
+                let pose = match corpus {
+                    Corpus::Posed => Some(random_affine(rng, 1000.0)),
+                    Corpus::Stretched => Some(random_stretch(rng)),
+                    _ => None,
+                };
                 // Moderate scenes reach to 2^11.
                 let scale = (corpus == Corpus::Units).then(|| [-100, 100, 115][rng.random_range(0..3)]);
                 return Self {
@@ -277,7 +283,7 @@ impl Target {
                     along(point, (direction * signs).as_dvec3())
                 }
             }
-            Corpus::Posed => {
+            Corpus::Posed | Corpus::Stretched => {
                 let (origin, direction) = self.at(rng, distance, length);
                 self.to_world(origin.as_dvec3(), direction.as_dvec3())
             }
@@ -348,9 +354,11 @@ impl Target {
             return (origin.as_vec3(), direction.as_vec3());
         };
         let matrix = matrix(pose);
+        // Of the length that the direction had: a scale changes a place, and no speed.
+        let turned = matrix * direction;
         (
             (matrix * origin + pose.origin().as_dvec3()).as_vec3(),
-            (matrix * direction).as_vec3(),
+            (turned * (direction.length() / turned.length())).as_vec3(),
         )
     }
 }

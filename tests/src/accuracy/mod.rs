@@ -8,6 +8,7 @@
 //! largest of a million rays. `tests/accuracy-bounds.csv` holds it; `tests/accuracy.csv` records what was measured, of
 //! these rays and of all that were measured since.
 
+mod backward;
 pub mod chart;
 pub mod command;
 mod corpus;
@@ -17,7 +18,8 @@ mod statistics;
 pub mod table;
 mod trial;
 
+pub use backward::Backward;
 pub use corpus::{Corpus, Target};
-pub use measure::{Cell, Measured, WELL_CONDITIONED, is_curved};
+pub use measure::{Cell, Measured, PART, WELL_CONDITIONED, is_curved};
 pub use statistics::{Statistics, Summary, Worst};
 pub use trial::{Arithmetic, Placed, Reference, Trial};

@@ -10,13 +10,14 @@ use std::error::Error;
 use std::path::Path;
 
 /// The names of the columns.
-const COLUMNS: [&str; 11] = [
+const COLUMNS: [&str; 12] = [
     "leaf",
     "corpus",
     "arithmetic",
     "rays",
     "wrong",
     "first_wrong",
+    "wrong_share",
     "p99_ulp",
     "most_ulp",
     "most_ray",
@@ -41,7 +42,7 @@ impl Record {
             return Ok(Self::default());
         }
         let mut rows = csv::Reader::from_path(path)?;
-        if rows.headers()? != &COLUMNS[..] {
+        if rows.headers()? != COLUMNS[..] {
             return Err(format!("{}: its columns are not those of a record: {}", path.display(), COLUMNS.join(",")).into());
         }
         let mut record = BTreeMap::new();
@@ -69,6 +70,7 @@ impl Record {
                 found.rays.to_string(),
                 found.wrong.to_string(),
                 found.first_wrong.map_or_else(String::new, |ray| ray.to_string()),
+                format!("{:.4e}", found.wrong_share),
                 format!("{:.4e}", found.p99),
                 format!("{:.4e}", found.most.error),
                 found.most.ray.to_string(),
@@ -79,6 +81,14 @@ impl Record {
         rows.flush()?;
         drop(rows);
         Ok(std::fs::rename(whole, path)?)
+    }
+
+    /// The record of rays of one cell.
+    #[must_use]
+    pub fn of(cell: Cell, measured: &Measured) -> Self {
+        let mut record = Self::default();
+        record.add(cell, measured);
+        record
     }
 
     /// What is recorded of a row.
@@ -130,9 +140,10 @@ fn parsed(row: &csv::StringRecord) -> Option<(Key, Summary)> {
         rays: row[3].parse().ok()?,
         wrong: row[4].parse().ok()?,
         first_wrong: if row[5].is_empty() { None } else { Some(row[5].parse().ok()?) },
-        p99: row[6].parse().ok()?,
-        most: worst(7)?,
-        conditioned: worst(9)?,
+        wrong_share: row[6].parse().ok()?,
+        p99: row[7].parse().ok()?,
+        most: worst(8)?,
+        conditioned: worst(10)?,
     };
     Some(((cell, arithmetic), summary))
 }
@@ -168,8 +179,11 @@ mod tests {
             );
             let close = |a: f64, b: f64| (a - b).abs() <= a * 1e-4;
             assert!(close(found.most.error, other.most.error) && close(found.conditioned.error, other.conditioned.error));
-            // The largest p99 of any slice: not less than that of the whole.
-            assert!(other.p99 >= found.p99 * 0.999, "{key:?}");
+            // The largest of any slice: not less than that of the whole.
+            assert!(
+                other.p99 >= found.p99 * 0.999 && other.wrong_share >= found.wrong_share * 0.999,
+                "{key:?}"
+            );
         }
         assert!(Record::read(&std::env::current_exe().unwrap()).is_err());
     }

@@ -32,8 +32,9 @@ pub struct Summary {
     pub wrong: u64,
     /// The first of them.
     pub first_wrong: Option<u64>,
-    /// The error that one crossing in a hundred exceeds, in units in the last place; of rays that were measured in parts,
-    /// the largest of any part.
+    /// The share of them; of rays that were measured in parts, the largest of any part.
+    pub wrong_share: f64,
+    /// The error that one crossing in a hundred exceeds, in units in the last place; again the largest of any part.
     pub p99: f64,
     /// The largest error of a well-conditioned crossing, in units in the last place.
     pub most: Worst,
@@ -42,18 +43,13 @@ pub struct Summary {
 }
 
 impl Summary {
-    /// The share of rays that are wrong.
-    #[must_use]
-    pub fn wrong_share(&self) -> f64 {
-        self.wrong as f64 / self.rays.max(1) as f64
-    }
-
     /// The figures of these rays and others.
     #[must_use]
     pub fn joined(mut self, other: &Self) -> Self {
         self.rays += other.rays;
         self.wrong += other.wrong;
         self.first_wrong = [self.first_wrong, other.first_wrong].into_iter().flatten().min();
+        self.wrong_share = self.wrong_share.max(other.wrong_share);
         self.p99 = self.p99.max(other.p99);
         self.most.see(other.most);
         self.conditioned.see(other.conditioned);
@@ -131,6 +127,7 @@ impl Statistics {
             rays: self.rays,
             wrong: self.wrong,
             first_wrong: self.first_wrong,
+            wrong_share: self.wrong as f64 / self.rays.max(1) as f64,
             p99: self.p99(),
             most: self.most,
             conditioned: self.conditioned,

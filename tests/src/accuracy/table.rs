@@ -1,6 +1,6 @@
 //! The table: what is allowed in every cell, and whether what was measured is.
 
-use super::measure::{Cell, Measured, is_curved};
+use super::measure::{Cell, PART, is_curved};
 use super::record::Record;
 use super::statistics::{Summary, Worst};
 use super::trial::Arithmetic;
@@ -50,7 +50,7 @@ fn rows() -> &'static [Row] {
 
 fn parsed(text: &str) -> Result<Vec<Row>, Box<dyn Error>> {
     let mut reader = csv::Reader::from_reader(text.as_bytes());
-    if reader.headers()? != &COLUMNS[..] {
+    if reader.headers()? != COLUMNS[..] {
         return Err("the columns are not those of bounds".into());
     }
     let row = |row: Result<csv::StringRecord, csv::Error>| {
@@ -114,14 +114,14 @@ pub fn derived(leaf: usize) -> f64 {
 
 impl Allowed {
     /// The bounds that follow from what was measured: four times as much, rounded up to two digits; of robust arithmetics
-    /// what is [`derived`], where that is met. Nothing is held to less than four rays, or to less than four units in the
-    /// last place.
+    /// what is [`derived`], where that is met. Nothing is held to less than one ray of a [`PART`], or to less than four units in
+    /// the last place.
     #[must_use]
     pub fn following_from(found: &Summary, cell: Cell, arithmetic: Arithmetic) -> Self {
         let derived = derived(cell.leaf);
         let conditioned = found.conditioned.error;
         Self {
-            wrong: rounded_up(ROOM * found.wrong.max(1) as f64 / found.rays as f64).min(1.0),
+            wrong: rounded_up((ROOM * found.wrong_share).max(1.0 / PART as f64)).min(1.0),
             p99: rounded_up(ROOM * found.p99.max(1.0)),
             most: rounded_up(ROOM * found.most.error.max(1.0)),
             conditioned: if arithmetic != Arithmetic::Plain && conditioned <= derived {
@@ -132,23 +132,13 @@ impl Allowed {
         }
     }
 
-    /// How many of so many rays may be wrong: the share, with room for four standard deviations of chance.
-    #[must_use]
-    pub fn wrong_of(&self, rays: u64) -> f64 {
-        let expected = self.wrong * rays as f64;
-        expected + 4.0 * expected.sqrt()
-    }
-
     /// Every way in which what was measured is more than allowed, with the number of the ray.
     #[must_use]
     pub fn breaches(&self, found: &Summary) -> Vec<(String, u64)> {
         let mut breaches = Vec::new();
-        if found.wrong as f64 > self.wrong_of(found.rays) {
+        if found.wrong_share > self.wrong {
             let ray = found.first_wrong.unwrap_or_default();
-            breaches.push((
-                format!("{} of {} rays wrong, allowed {:e}", found.wrong, found.rays, self.wrong),
-                ray,
-            ));
+            breaches.push((format!("{:e} of the rays wrong, allowed {:e}", found.wrong_share, self.wrong), ray));
         }
         if found.p99 > self.p99 {
             breaches.push((format!("p99 {:e} ulp, allowed {:e}", found.p99, self.p99), found.most.ray));
@@ -203,26 +193,16 @@ pub fn write_bounds(record: &Record, out: impl Write) -> Result<(), Box<dyn Erro
 
 /// What of a cell breaks the table: a missing row, or a breach with the ray that makes it.
 #[must_use]
-pub fn verdict(cell: Cell, measured: &Measured) -> Vec<String> {
-    judged(cell, |arithmetic| Some(measured.statistics[arithmetic as usize].summary()))
-}
-
-/// The same of what is recorded of a cell.
-#[must_use]
-pub fn recorded_verdict(cell: Cell, record: &Record) -> Vec<String> {
-    judged(cell, |arithmetic| record.get(cell, arithmetic).copied())
-}
-
-fn judged(cell: Cell, found: impl Fn(Arithmetic) -> Option<Summary>) -> Vec<String> {
+pub fn verdict(cell: Cell, record: &Record) -> Vec<String> {
     let name = format!("--leaf '{}' --corpus {}", KINDS[cell.leaf], cell.corpus.name());
     let judged = cell.arithmetics().flat_map(|arithmetic| {
         let Some(allowed) = allowed(cell, arithmetic) else {
             return vec![format!("{name} has no row for {}", arithmetic.name())];
         };
-        let Some(found) = found(arithmetic) else {
+        let Some(found) = record.get(cell, arithmetic) else {
             return vec![format!("{name} was not measured for {}", arithmetic.name())];
         };
-        let breaches = allowed.breaches(&found).into_iter();
+        let breaches = allowed.breaches(found).into_iter();
         let say = |(what, ray): (String, u64)| {
             let (arithmetic, trial) = (arithmetic.name(), cell.trial(ray));
             format!("{arithmetic}: {what}; ray {ray}, seen again by {name} --replay {ray}: {trial:?}")
@@ -247,6 +227,7 @@ mod tests {
         rays: 100_000,
         wrong: 100,
         first_wrong: Some(3),
+        wrong_share: 1e-3,
         p99: 3.9,
         most: Worst { error: 10.0, ray: 1 },
         conditioned: Worst { error: 2.5, ray: 1 },
@@ -262,7 +243,7 @@ mod tests {
         };
         assert!(allowed.breaches(&FOUND).is_empty());
         let worse: [fn(&mut Summary); 5] = [
-            |found| found.wrong = 200,
+            |found| found.wrong_share = 1.1e-3,
             |found| found.p99 = 4.1,
             |found| found.most.error = 10.1,
             |found| found.conditioned.error = 2.6,
@@ -300,7 +281,7 @@ mod tests {
             },
             Arithmetic::Robust,
         );
-        assert_eq!((none.wrong, none.p99, none.most, none.conditioned), (4e-6, 4.0, 4.0, 2.5));
+        assert_eq!((none.wrong, none.p99, none.most, none.conditioned), (3.1e-5, 4.0, 4.0, 2.5));
     }
 
     #[test]

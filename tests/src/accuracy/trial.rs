@@ -127,8 +127,13 @@ impl Trial {
         };
         let (ray, parameter) = made.expect("corpora make valid rays");
         let line = ray.line(like);
-        let line = self.solid.pose.map_or(line, |pose| pose.line_to_local(&line));
-        let span = leaf.span_along(&line);
+        let span = match self.solid.pose {
+            Some(pose) => {
+                let local = pose.line_to_local(&line);
+                local.span_in_world(leaf.span_along(&local.line))
+            }
+            None => leaf.span_along(&line),
+        };
         let in_world = f64::from(parameter.exponent()).exp2();
         let end = |t| to_f64(ray.parameter_of(t)) * in_world;
         (span.enter < span.exit).then(|| [end(span.enter), end(span.exit)])
@@ -202,6 +207,13 @@ impl Reference {
     pub fn condition(&self, ray: (Vec3, Vec3), t: Ball, found: f64, roundoff: f64) -> f64 {
         let inputs = self.inputs.get_or_init(|| self.inputs());
         self.doubled.condition(ray, t, t.distance_to(found), roundoff, inputs)
+    }
+
+    /// How many rounding errors a place of a ray is from the nearest surface: see [`Solid::nearness`].
+    #[must_use]
+    pub fn nearness(&self, ray: (Vec3, Vec3), t: f64, roundoff: f64) -> f64 {
+        let inputs = self.inputs.get_or_init(|| self.inputs());
+        self.doubled.nearness(ray, t, roundoff, inputs)
     }
 
     /// What every number is worth that the solid is given by.

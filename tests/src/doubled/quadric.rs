@@ -110,6 +110,12 @@ impl Quadric<f64> {
         magnitudes.value([x.abs(), y.abs(), z.abs()])
     }
 
+    /// What the terms of degree two make, at the most, of coordinates that may be off by so much.
+    pub(super) fn bend(&self, [x, y, z]: [f64; 3]) -> f64 {
+        let ([xx, yy, zz], [xy, xz, yz]) = (self.squares.map(f64::abs), self.mixed.map(f64::abs));
+        (xx * x + xy * y + xz * z) * x + (yy * y + yz * z) * y + zz * z * z
+    }
+
     /// The gradient at a place.
     pub(super) fn gradient(&self, [x, y, z]: [f64; 3]) -> [f64; 3] {
         let ([xx, yy, zz], [xy, xz, yz], [a, b, c]) = (self.squares, self.mixed, self.linear);

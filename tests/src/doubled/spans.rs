@@ -1,7 +1,7 @@
 //! Solids along a line.
 
 use super::ball::Ball;
-use super::solid::{Input, Solid, Surface};
+use super::solid::{Frame, Input, Solid, Surface};
 use core::cmp::Ordering;
 use glam::Vec3;
 
@@ -83,6 +83,11 @@ struct Sightline {
 /// The value of a polynomial of degree one at the start of a line.
 fn linear_value(surface: &Surface, line: &Sightline) -> Ball {
     surface.doubled.slope(line.start) + surface.doubled.constant()
+}
+
+/// What a gradient makes of coordinates that may be off either way.
+fn weighed(gradient: [f64; 3], by: [f64; 3]) -> f64 {
+    gradient[0].abs() * by[0] + gradient[1].abs() * by[1] + gradient[2].abs() * by[2]
 }
 
 /// The two ends of a span; [`None`] where it has no end. For a facet both are the crossing.
@@ -183,28 +188,20 @@ impl Solid {
         let travelled = [0, 1, 2].map(|axis| line.start[axis].to_f64().abs() + (s * line.along[axis]).abs());
         let beyond = [0, 1, 2].map(|axis| at[axis] + line.along[axis]);
         let slope_of = |gradient: [f64; 3]| gradient[0] * line.along[0] + gradient[1] * line.along[1] + gradient[2] * line.along[2];
-        let by_ray = [0, 1, 2].map(|axis| {
-            let (from_origin, along) = (f64::from(origin[axis]), t * f64::from(direction[axis]));
-            (from_origin.abs() + along.abs()) / self.units.scale
-        });
+        let by_ray = self.by_ray((origin, direction), t);
         let mut worst = 0.0_f64;
         for (number, surface) in self.surfaces.iter().enumerate() {
             let gradient = surface.nearly.gradient(at);
             let (value, slope) = (surface.nearly.value(at), slope_of(gradient));
-            let weighed = |by: [f64; 3]| gradient[0].abs() * by[0] + gradient[1].abs() * by[1] + gradient[2].abs() * by[2];
             let bend = 0.5 * (slope_of(surface.nearly.gradient(beyond)) - slope);
-            let moved = weighed(by_ray);
-            let rounding = ROUNDINGS * roundoff * moved + NOISE * (surface.nearly.weight(at) + weighed(travelled));
+            let moved = weighed(gradient, by_ray);
+            let rounding = ROUNDINGS * roundoff * moved + NOISE * (surface.nearly.weight(at) + weighed(gradient, travelled));
             if value.abs() > (slope.abs() + bend.abs() * reach) * reach + rounding {
                 continue;
             }
-            let frame = self
-                .frame
-                .as_ref()
-                .map_or(0.0, |frame| frame.worth(gradient, origin, direction, t) / self.units.scale);
-            let moved = moved + frame + inputs.iter().map(|input| input.0[number].value(at).abs()).sum::<f64>();
+            let moved = moved + self.by_solid(number, (origin, direction), t, at, inputs);
             // A slope that rounding changes by much, at the crossing or on the way to where it may as well be.
-            let tilted = ROUNDINGS * roundoff * weighed(line.along.map(f64::abs));
+            let tilted = ROUNDINGS * roundoff * weighed(gradient, line.along.map(f64::abs));
             let bent = bend.abs() * ROUNDINGS * roundoff * moved / slope.abs();
             let condition = if (tilted + bent) * 2.0 < slope.abs() {
                 moved * line.step / slope.abs()
@@ -214,6 +211,42 @@ impl Solid {
             worst = worst.max(condition);
         }
         worst
+    }
+
+    /// How many rounding errors the nearest of the surfaces is from the place of a ray at `t`: by so many must the numbers be
+    /// off that meet there, for the place to be on it.
+    #[must_use]
+    pub fn nearness(&self, ray: (Vec3, Vec3), t: f64, roundoff: f64, inputs: &[Input]) -> f64 {
+        let line = self.sightline(ray.0, ray.1);
+        let s = (Ball::from(t) - Ball::from(line.nearest)).scaled(1.0 / line.step);
+        let place = [0, 1, 2].map(|axis| line.start[axis] + s * Ball::from(line.along[axis]));
+        let at = place.map(Ball::to_f64);
+        let by_ray = self.by_ray(ray, t);
+        let roundings = |(number, surface): (usize, &Surface)| {
+            let moved = weighed(surface.nearly.gradient(at), by_ray) + self.by_solid(number, ray, t, at, inputs);
+            let value = surface.doubled.value(place).to_f64().abs();
+            // Far away rounding errors are no less than the solid: that moves the place by `k u moved + (k u)² bend`.
+            2.0 * value / (roundoff * (moved + (moved * moved + 4.0 * surface.nearly.bend(by_ray) * value).sqrt()))
+        };
+        self.surfaces.iter().enumerate().map(roundings).fold(f64::INFINITY, f64::min)
+    }
+
+    /// How far each coordinate of a place moves, in the units of the solid, when the numbers of the ray do.
+    fn by_ray(&self, (origin, direction): (Vec3, Vec3), t: f64) -> [f64; 3] {
+        [0, 1, 2].map(|axis| {
+            let (from_origin, along) = (f64::from(origin[axis]), t * f64::from(direction[axis]));
+            (from_origin.abs() + along.abs()) / self.units.scale
+        })
+    }
+
+    /// How much the value of a surface changes at a place when the numbers of the solid and of its frame do.
+    fn by_solid(&self, number: usize, (origin, direction): (Vec3, Vec3), t: f64, at: [f64; 3], inputs: &[Input]) -> f64 {
+        let worth = |frame: &Frame| {
+            let gradient = self.surfaces[number].nearly.gradient(at);
+            frame.worth(gradient, origin, direction, t) / self.units.scale
+        };
+        let frame = self.frame.as_ref().map_or(0.0, worth);
+        frame + inputs.iter().map(|input| input.0[number].value(at).abs()).sum::<f64>()
     }
 
     fn sightline(&self, origin: Vec3, direction: Vec3) -> Sightline {

@@ -182,7 +182,10 @@ fn check_ray<T: Number>(program: &Program<'_>, tree: &Tree, poses: &[Transform],
     let line: Line<T> = ray.line(T::from(0.0));
     let spans: Vec<Span<T>> = leaves(program.nodes(), poses)
         .map(|(solid, pose)| match pose {
-            Some(pose) => solid.span_along(&pose.line_to_local(&line)),
+            Some(pose) => {
+                let local = pose.line_to_local(&line);
+                local.span_in_world(solid.span_along(&local.line))
+            }
             None => solid.span_along(&line),
         })
         .collect();

@@ -90,7 +90,7 @@ fn is_usable(matrix: DMat3) -> bool {
     let norm = matrix.to_cols_array().iter().map(|entry| entry * entry).sum::<f64>().sqrt();
     let inverse = matrix.inverse().to_cols_array();
     let inverse_norm = inverse.iter().map(|entry| entry * entry).sum::<f64>().sqrt();
-    norm < 1000.0 && inverse_norm < 1000.0
+    norm < 1e6 && inverse_norm < 1e6 && norm * inverse_norm < 1e6
 }
 
 fn check_map(matrix: Mat3, translation: Vec3, pose: &Transform, raw: &mut Raw<'_>) {

@@ -166,7 +166,7 @@ fn gaps(whole: &Spans, union: &Spans) -> Spans {
 
 fn check(shared: &Shared, pose: &Transform, ray: &Ray, edge: DVec3, tally: &mut Tally) {
     tally.rays += 1;
-    let local: Line<f32> = pose.line_to_local(&ray.line(0.0));
+    let local: Line<f32> = pose.line_to_local(&ray.line(0.0)).line;
     if shared.has_in_plane(&local) {
         tally.in_plane += 1;
         return;
