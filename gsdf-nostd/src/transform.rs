@@ -35,8 +35,8 @@ pub struct Transform {
 pub struct LocalLine<T> {
     /// The line.
     pub line: Line<T>,
-    /// The power of two; also that by which its parameters are larger than those of the world's line.
-    scale: T,
+    /// The power of two: a parameter of the line times it is that of the world's line.
+    pub scale: T,
 }
 
 impl<T: Real> LocalLine<T> {

@@ -2,6 +2,7 @@
 //! boards compute. CI runs it in native builds too.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
+mod batches;
 mod boards;
 mod conformance;
 mod golden;

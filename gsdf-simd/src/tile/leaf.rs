@@ -32,6 +32,24 @@ pub(crate) fn spans<T: Lanes, L: Solid>(
         #[inline(always)]
         || solid.spans(seen, lines, which, spans, step),
     );
+    if view.scene.program().pose(frame).is_some() {
+        to_world(rays, which, spans, step);
+    }
+}
+
+/// Takes spans in a frame to the parameters of the world.
+#[inline(always)]
+fn to_world<T: Lanes>(rays: &Rays<T>, which: u32, spans: &mut [Span<T>], step: usize) {
+    let mut bits = which;
+    let mut place = 0;
+    while bits != 0 {
+        let scale = rays.local_scale(bits.trailing_zeros() as usize);
+        bits &= bits - 1;
+        if let Some(span) = spans.get_mut(place) {
+            (span.enter, span.exit) = (span.enter * scale, span.exit * scale);
+        }
+        place += step;
+    }
 }
 
 /// The surface of the leaf of a number where the rays of a packet cross it, with its normals outward from the program.
@@ -54,6 +72,9 @@ pub(crate) fn surface<'v, T: Lanes, L: Solid>(
             face: t,
         };
     };
+    let pose = view.scene.program().pose(asked.frame);
+    rays.lines_in(asked.frame, view.scene.program(), 1 << packet);
+    let t = if pose.is_some() { t / rays.local_scale(packet) } else { t };
     let line = rays.line_in(asked.frame, view.scene.program(), packet);
     let seen = asked.seen_before.or(asked.seen_now.as_ref());
     let own = T::vectorize(
@@ -61,7 +82,7 @@ pub(crate) fn surface<'v, T: Lanes, L: Solid>(
         #[inline(always)]
         || solid.surface_on(seen, line, t),
     );
-    let outward = match view.scene.program().pose(asked.frame) {
+    let outward = match pose {
         Some(pose) => pose.normal_to_world(own.normal),
         None => own.normal,
     };

@@ -4,7 +4,7 @@ use super::pixels::{BLOCK_SIDE, TILE_SIDE};
 use crate::lanes::Lanes;
 use crate::packet::{Packet, scaled};
 use crate::scene::{Picture, View};
-use gsdf_nostd::{Line, Program, Raster, Solid, Toward, V3};
+use gsdf_nostd::{Line, LocalLine, Program, Raster, Solid, Toward, V3};
 
 /// The most packets that a tile is made of: those of eight rays.
 pub(crate) const MOST_PACKETS: usize = 32;
@@ -54,6 +54,8 @@ pub(crate) struct Rays<T: Lanes> {
     upward: [V3<T>; MOST_PACKETS / COLUMNS],
     /// The lines in another frame, as far as `posed` says.
     local: [Line<T>; MOST_PACKETS],
+    /// By what a parameter on a local line is to be multiplied to be one in the world.
+    local_scales: [T; MOST_PACKETS],
     frame: u16,
     posed: u32,
 }
@@ -81,6 +83,7 @@ impl<T: Lanes> Rays<T> {
             across: [ones; COLUMNS],
             upward: [ones; MOST_PACKETS / COLUMNS],
             local: [line; MOST_PACKETS],
+            local_scales: [one; MOST_PACKETS],
             frame: 0,
             posed: 0,
         }
@@ -181,9 +184,9 @@ impl<T: Lanes> Rays<T> {
         while missing != 0 {
             let packet = missing.trailing_zeros() as usize;
             missing &= missing - 1;
-            if let (Some(local), Some(line)) = (self.local.get_mut(packet), self.lines.get(packet)) {
-                *local = pose.line_to_local(line);
-            }
+            let packet = packet % MOST_PACKETS;
+            let LocalLine { line, scale } = pose.line_to_local(&self.lines[packet]);
+            (self.local[packet], self.local_scales[packet]) = (line, scale);
         }
         self.posed |= which;
         &self.local
@@ -194,6 +197,13 @@ impl<T: Lanes> Rays<T> {
     pub(crate) fn line_in<L>(&mut self, frame: u16, program: &Program<'_, L>, packet: usize) -> &Line<T> {
         let packet = packet % MOST_PACKETS;
         &self.lines_in(frame, program, 1 << packet)[packet]
+    }
+
+    /// By what a parameter of a packet's line in the frame that was asked for last is to be multiplied to be one in the
+    /// world.
+    #[inline(always)]
+    pub(crate) fn local_scale(&self, packet: usize) -> T {
+        self.local_scales[packet % MOST_PACKETS]
     }
 
     /// The line of a packet in the world, by what it is scaled, and where it starts.
