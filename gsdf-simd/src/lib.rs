@@ -21,6 +21,31 @@
 //! With it come [prepared scenes](Scene) and whole pictures of them on all cores ([`Renderer`]), and on x86-64 the vectors
 //! that the processor turns out to have.
 //!
+//! # Pictures and batches
+//! A [`Scene`] is a program taken apart once: into the operands of its outermost unions, each in the form that is cheapest to
+//! cast rays at, with trees of boxes over them and over what is cut from them. A [`Renderer`] then looks, tile by tile of a
+//! picture, only at what the tile's rays can meet; a [`Caster`] does the same for rays that have nothing in common. What is
+//! left out changes no bit.
+//!
+//! ```
+//! use glam::{Vec3, vec3};
+//! use gsdf_nostd::{Camera, Cuboid, Sphere, csg};
+//! use gsdf_simd::{Renderer, Scene, Tiles};
+//!
+//! csg! { const DIE = difference(Cuboid::new(Vec3::NEG_ONE, Vec3::ONE), Sphere::new(vec3(0.0, 0.0, -1.0), 0.3)) }
+//! let scene = Scene::new(DIE.program());
+//! let camera = Camera::pinhole(vec3(0.0, 0.0, -5.0), Vec3::ZERO, Vec3::Y, 0.5)?;
+//! let mut renderer = Renderer::new(&scene, camera.raster(64, 64));
+//! let mut picture = Tiles::new(64, 64);
+//! renderer.render(picture.as_target());
+//! // The middle of the picture shows the bottom of the pit, its border the face around it, and the corners nothing.
+//! let pixel = |x, y| picture.pixel(x, y).map(|pixel| (pixel.leaf, pixel.distance));
+//! assert!(matches!(pixel(32, 32), Some((1, depth)) if (depth - 4.3).abs() < 1e-3));
+//! assert_eq!(pixel(24, 32), Some((0, 4.0)));
+//! assert!(matches!(pixel(0, 0), Some((_, f32::INFINITY))));
+//! # Ok::<(), gsdf_nostd::Invalid>(())
+//! ```
+//!
 //! # Levels
 //! A build for any x86-64 processor may only use SSE2. Renderers ask the processor what it has and run code that was
 //! compiled for that: with AVX2 eight rays in one register, with AVX-512 sixteen. [`Level`] tells which, and

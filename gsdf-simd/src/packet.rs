@@ -125,12 +125,14 @@ impl<T: Lanes> Packet<T> {
     }
 
     /// The lines, by what their directions are scaled, and where they start.
+    #[cfg(feature = "std")]
     #[inline(always)]
     pub(crate) fn into_parts(self) -> (Line<T>, T, T) {
         (self.line, self.scale, self.start)
     }
 
     /// Where the ranges end, in the parameter of the rays.
+    #[cfg(feature = "std")]
     #[inline(always)]
     pub(crate) fn end(&self) -> T {
         self.end

@@ -167,6 +167,7 @@ impl<T: Lanes, L: Solid + Send + Sync> Row<L> for RowOf<T, L> {
 }
 
 #[inline(always)]
+#[allow(clippy::too_many_arguments, reason = "what a worker is made of, apart")]
 fn render_row<T: Lanes, L: Solid>(
     token: T::Token,
     view: &View<'_, '_, L>,

@@ -53,7 +53,7 @@ impl Grid {
         let columns = (2_u32 << last).wrapping_sub(1 << first) & 0xf;
         let (highest, lowest) = (top >> self.height_bits & 7, bottom >> self.height_bits & 7);
         let rows = (2_u64 << (4 * lowest + 3)).wrapping_sub(1 << (4 * highest)) as u32;
-        columns * 0x1111_1111 & rows
+        (columns * 0x1111_1111) & rows
     }
 }
 

@@ -103,7 +103,7 @@ impl Reach {
         // The error of a local coordinate is one of the world's coordinates as the frame stretches them; it comes back to
         // the world stretched the other way.
         let farthest = greatest(magnitudes(center) + half) + greatest(magnitudes(V3::from(pose.origin())));
-        let stretched = rows.map(|row| magnitudes(row)).map(|row| row.x + row.y + row.z);
+        let stretched = rows.map(magnitudes).map(|row| row.x + row.y + row.z);
         let local_error = f64::from(OF_COORDINATES) * farthest * stretched[0].max(stretched[1]).max(stretched[2]);
         let error = reach([local_error; 3]);
         let to_f32 = |v: V3<f64>| Vec3::new(v.x as f32, v.y as f32, v.z as f32);

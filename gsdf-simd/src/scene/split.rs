@@ -61,10 +61,11 @@ impl Starts {
             if let Some(place) = negative.get_mut(second) {
                 *place = here != turned;
             }
-            if let (false, Some(start)) = (matches!(node, Node::Complement), self.starts.get(second)) {
-                if let Some(place) = negative.get_mut((start.node as usize).wrapping_sub(1)) {
-                    *place = here;
-                }
+            // The first operand ends before the second starts; a complement has none.
+            let start = self.starts.get(second).filter(|_| !matches!(node, Node::Complement));
+            let first = start.and_then(|start| negative.get_mut((start.node as usize).wrapping_sub(1)));
+            if let Some(place) = first {
+                *place = here;
             }
         }
         leaves.reverse();

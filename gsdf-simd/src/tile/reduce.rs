@@ -174,13 +174,11 @@ mod tests {
             let (first, second) = (operators[choice % 3], operators[choice / 3 % 3]);
             let (turned, live) = (choice / 9 % 32, choice / 9 / 32);
             let mut nodes = Vec::new();
-            let mut turn = 0;
-            for node in [leaf(1.0), leaf(2.0), first, leaf(3.0), second] {
+            for (turn, node) in [leaf(1.0), leaf(2.0), first, leaf(3.0), second].into_iter().enumerate() {
                 nodes.push(node);
                 if turned >> turn & 1 == 1 {
                     nodes.push(Node::Complement);
                 }
-                turn += 1;
             }
             let live: [bool; 3] = core::array::from_fn(|leaf| live >> leaf & 1 == 1);
             let (known, made, places) = reduced(&nodes, &live);
@@ -198,13 +196,13 @@ mod tests {
 
     fn member(nodes: &[Node], inside: &[bool]) -> bool {
         let mut leaves = inside.iter();
-        let mut stack = Vec::new();
+        let mut stack: Vec<bool> = Vec::new();
         for node in nodes {
             let made = match node {
                 Node::Leaf { .. } => *leaves.next().unwrap(),
                 Node::Complement => !stack.pop().unwrap(),
                 binary => {
-                    let (second, first): (bool, bool) = (stack.pop().unwrap(), stack.pop().unwrap());
+                    let (second, first) = (stack.pop().unwrap(), stack.pop().unwrap());
                     match binary {
                         Node::Union => first | second,
                         Node::Intersection => first & second,
