@@ -5,6 +5,7 @@ use crate::level::{Level, Work};
 use crate::packet::Packet;
 use crate::scene::{Scene, View};
 use crate::tile::{Found, Workspace, cast_packet};
+use crate::vectorized::Vectorized;
 use core::fmt;
 use core::marker::PhantomData;
 use gsdf_nostd::{Solid, V3};
@@ -141,17 +142,15 @@ impl RayHits<'_> {
 pub struct Caster<'s, 'a, L: Solid> {
     view: View<'s, 'a, L>,
     level: Level,
-    idle: Mutex<Vec<Worker<'s, L>>>,
+    idle: Mutex<Vec<RayCaster<L>>>,
 }
-
-type Worker<'s, L> = Box<dyn Cast<L> + 's>;
 
 /// How many rays a thread takes at a time.
 const TOGETHER: usize = 1024;
 
 impl<'s, 'a, L> Caster<'s, 'a, L>
 where
-    L: Solid<Seen<f32>: Send + Sync> + Send + Sync + 's,
+    L: Vectorized,
 {
     /// Casts at this scene, at the [best level](Level::best) of this machine.
     #[must_use]
@@ -202,8 +201,8 @@ where
         }
         let idle = || self.idle.lock().unwrap_or_else(PoisonError::into_inner);
         let worker = idle().pop();
-        let mut worker = worker.unwrap_or_else(|| self.level.run(MakeWorker(PhantomData)));
-        worker.cast(&self.view, rays, hits);
+        let mut worker = worker.unwrap_or_else(|| L::ray_caster(self.level));
+        worker.0.cast(&self.view, rays, hits);
         idle().push(worker);
     }
 }
@@ -273,22 +272,35 @@ fn from<N>(slice: &mut [N], place: usize) -> &mut [N] {
     slice.get_mut(place..).unwrap_or_default()
 }
 
+/// What casts rays at a level.
+#[doc(hidden)]
+pub struct RayCaster<L: Solid>(Box<dyn CastRays<L>>);
+
+impl<L: Solid + Send + Sync + 'static> RayCaster<L> {
+    /// One for a level.
+    #[must_use]
+    pub fn new(level: Level) -> Self {
+        level.run(MakeRayCaster(PhantomData))
+    }
+}
+
 /// What casts rays in lanes of some type.
-trait Cast<L: Solid>: Send {
+trait CastRays<L: Solid>: Send {
+    /// Casts rays.
     fn cast(&mut self, view: &View<'_, '_, L>, rays: Rays<'_>, hits: Hits<'_>);
 }
 
-/// Makes a [`Worker`] for the lanes of a level.
-struct MakeWorker<'s, L>(PhantomData<(&'s (), L)>);
+/// Makes a [`RayCaster`] for the lanes of a level.
+struct MakeRayCaster<L>(PhantomData<L>);
 
-impl<'s, L: Solid + Send + Sync + 's> Work for MakeWorker<'s, L> {
-    type Output = Worker<'s, L>;
+impl<L: Solid + Send + Sync + 'static> Work for MakeRayCaster<L> {
+    type Output = RayCaster<L>;
 
-    fn run<T: Lanes>(self, token: T::Token) -> Self::Output {
-        Box::new(CastIn {
+    fn run<T: Lanes>(self, token: T::Token) -> RayCaster<L> {
+        RayCaster(Box::new(CastIn {
             token,
             work: Workspace::<T, L>::new(token),
-        })
+        }))
     }
 }
 
@@ -297,7 +309,7 @@ struct CastIn<T: Lanes, L> {
     work: Workspace<T, L>,
 }
 
-impl<T: Lanes, L: Solid + Send + Sync> Cast<L> for CastIn<T, L> {
+impl<T: Lanes, L: Solid + Send + Sync> CastRays<L> for CastIn<T, L> {
     fn cast(&mut self, view: &View<'_, '_, L>, rays: Rays<'_>, mut hits: Hits<'_>) {
         let Self { token, work } = self;
         let token = *token;

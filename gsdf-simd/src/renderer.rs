@@ -5,6 +5,7 @@ use crate::level::{Level, Work};
 use crate::scene::{Scene, View};
 use crate::target::{Target, Wants};
 use crate::tile::{TILE_SIDE, Tile, Workspace, cast};
+use crate::vectorized::Vectorized;
 use core::iter::Sum;
 use core::marker::PhantomData;
 use core::ops::Range;
@@ -22,10 +23,8 @@ pub struct Renderer<'s, 'a, L: Solid> {
     raster: Raster,
     level: Level,
     /// What the threads work in, as long as none does.
-    idle: Mutex<Vec<Worker<'s, L>>>,
+    idle: Mutex<Vec<RowRenderer<L>>>,
 }
-
-type Worker<'s, L> = Box<dyn Row<L> + 's>;
 
 /// What a picture took.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -55,7 +54,7 @@ impl Sum for Effort {
 
 impl<'s, 'a, L> Renderer<'s, 'a, L>
 where
-    L: Solid<Seen<f32>: Send + Sync> + Send + Sync + 's,
+    L: Vectorized,
 {
     /// A renderer of pictures of this scene, as this raster sees it, at the [best level](Level::best) of this machine.
     #[must_use]
@@ -95,7 +94,7 @@ where
         let workers = rayon::current_num_threads().min(rows);
         let idle = self.idle.get_mut().unwrap_or_else(PoisonError::into_inner);
         while idle.len() < workers {
-            idle.push(self.level.run(MakeWorker(PhantomData)));
+            idle.push(L::row_renderer(self.level));
         }
         self.render_rows(target, 0..rows)
     }
@@ -119,31 +118,43 @@ where
         let idle = || self.idle.lock().unwrap_or_else(PoisonError::into_inner);
         // The last one that was given back is the one whose memory is still in a cache.
         let worker = idle().pop();
-        let mut worker = worker.unwrap_or_else(|| self.level.run(MakeWorker(PhantomData)));
-        let effort = worker.render(&self.view, &self.raster, row, target.wants(), target);
+        let mut worker = worker.unwrap_or_else(|| L::row_renderer(self.level));
+        let effort = worker.0.render(&self.view, &self.raster, row, target.wants(), target);
         idle().push(worker);
         effort
     }
 }
 
+/// What renders rows of tiles at a level.
+#[doc(hidden)]
+pub struct RowRenderer<L: Solid>(Box<dyn RenderRow<L>>);
+
+impl<L: Solid + Send + Sync + 'static> RowRenderer<L> {
+    /// One for a level.
+    #[must_use]
+    pub fn new(level: Level) -> Self {
+        level.run(MakeRowRenderer(PhantomData))
+    }
+}
+
 /// What renders a row of tiles, in lanes of some type.
-trait Row<L: Solid>: Send {
+trait RenderRow<L: Solid>: Send {
     /// Renders a row of tiles.
     fn render(&mut self, view: &View<'_, '_, L>, raster: &Raster, row: usize, wants: Wants, target: &mut dyn PutTiles) -> Effort;
 }
 
-/// Makes a [`Worker`] for the lanes of a level.
-struct MakeWorker<'s, L>(PhantomData<(&'s (), L)>);
+/// Makes a [`RowRenderer`] for the lanes of a level.
+struct MakeRowRenderer<L>(PhantomData<L>);
 
-impl<'s, L: Solid + Send + Sync + 's> Work for MakeWorker<'s, L> {
-    type Output = Worker<'s, L>;
+impl<L: Solid + Send + Sync + 'static> Work for MakeRowRenderer<L> {
+    type Output = RowRenderer<L>;
 
-    fn run<T: Lanes>(self, token: T::Token) -> Self::Output {
-        Box::new(RowOf {
+    fn run<T: Lanes>(self, token: T::Token) -> RowRenderer<L> {
+        RowRenderer(Box::new(RowOf {
             token,
             work: Workspace::<T, L>::new(token),
             tile: Box::new(Tile::NOTHING),
-        })
+        }))
     }
 }
 
@@ -154,7 +165,7 @@ struct RowOf<T: Lanes, L> {
     tile: Box<Tile>,
 }
 
-impl<T: Lanes, L: Solid + Send + Sync> Row<L> for RowOf<T, L> {
+impl<T: Lanes, L: Solid + Send + Sync> RenderRow<L> for RowOf<T, L> {
     fn render(&mut self, view: &View<'_, '_, L>, raster: &Raster, row: usize, wants: Wants, target: &mut dyn PutTiles) -> Effort {
         let Self { token, work, tile } = self;
         let token = *token;

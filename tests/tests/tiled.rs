@@ -3,10 +3,14 @@
 //! surfaces and far away; poses; solids and complements without bounds; parts that are products and parts that are not.
 
 use glam::{Mat3, Vec3, vec3};
-use gsdf_nostd::{Camera, CappedCylinder, Cone, Cuboid, Cylinder, HalfSpace, Leaf, Node, Program, Raster, Span, Sphere, Transform};
+use gsdf_nostd::{
+    Camera, CappedCylinder, Cone, Cuboid, Cylinder, HalfSpace, Leaf, Node, Program, Raster, Solid, Span, Sphere, Toward, Transform, V3,
+    csg, leaf_set,
+};
 use gsdf_simd::{Level, Pixel, Renderer, Scene, Tiles};
+use gsdf_tests::conformance::octahedron::Octahedron;
 use gsdf_tests::conformance::packet::Composed;
-use gsdf_tests::shape::unit;
+use gsdf_tests::shape::{KINDS, Shape, unit};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 use rayon::prelude::*;
@@ -218,4 +222,68 @@ fn scenes_of_many_parts() {
         shown.pictures == 600 && shown.hits > 100_000 && shown.misses > 50_000 && shown.leaving > 5_000,
         "{shown:?}"
     );
+}
+
+leaf_set! {
+    /// A leaf type of a user's.
+    pub enum Gem { Sphere(Sphere), Octahedron(Octahedron) }
+}
+gsdf_simd::vectorized!(Gem);
+
+csg! { const CUT_GEM: Gem = difference(Octahedron::new(Vec3::ZERO, 1.0), Sphere::new(Vec3::X, 0.6)) }
+
+#[test]
+fn a_leaf_type_of_ones_own_is_rendered_too() {
+    let scene = Scene::new(CUT_GEM.program());
+    let raster = Camera::pinhole(vec3(2.0, 1.0, -3.0), Vec3::ZERO, Vec3::Y, 0.4)
+        .unwrap()
+        .raster(40, 30);
+    for level in Level::available() {
+        let mut tiles = Tiles::new(40, 30);
+        Renderer::at_level(&scene, raster, level).render(tiles.as_target());
+        for (x, y) in (0..30).flat_map(|y| (0..40).map(move |x| (x, y))) {
+            let expected = CUT_GEM.cast(&raster.ray(x, y).unwrap()).map_or(Pixel::NOTHING, |hit| Pixel {
+                distance: hit.t,
+                normal: hit.normal.to_array(),
+                leaf: hit.leaf,
+            });
+            assert_eq!(
+                tiles.pixel(x, y).map(|pixel| bits(&pixel)),
+                Some(bits(&expected)),
+                "{level}, {x}, {y}"
+            );
+        }
+    }
+}
+
+/// Where no solid of a scene asks for the reciprocals of a direction's components they are left out: those that say they do
+/// not ask really do not.
+#[test]
+fn who_does_not_divide_by_components_never_looks_at_them() {
+    let mut rng = Pcg64::seed_from_u64(3);
+    let mut silent = 0;
+    for round in 0..200 {
+        let leaf = Shape::random(&mut rng, round % KINDS.len(), 1.0, 1.5).leaf().unwrap();
+        if leaf.divides_by_components() {
+            continue;
+        }
+        silent += 1;
+        for _ in 0..50 {
+            let origin = unit(&mut rng).as_vec3() * 5.0;
+            let direction = V3::from(unit(&mut rng).as_vec3() * 0.5 - origin);
+            let (with, nan) = (Toward::new(direction), V3::new(f32::NAN, f32::NAN, f32::NAN));
+            let without = Toward {
+                per_component: nan,
+                ..Toward::without_components(direction)
+            };
+            let seen = leaf.seen_from(V3::from(origin));
+            let span = leaf.span(&seen, &with);
+            assert_eq!(span, leaf.span(&seen, &without), "{leaf:?}");
+            if span.enter < span.exit {
+                let surfaces = [with, without].map(|toward| leaf.surface(&seen, &toward, span.enter));
+                assert_eq!(surfaces[0], surfaces[1], "{leaf:?}");
+            }
+        }
+    }
+    assert!(silent > 50);
 }
