@@ -1,7 +1,7 @@
 //! Batches of any rays against one scalar query per ray, bit for bit, at every level: rays in all directions, with ranges,
 //! that start inside, and that are none.
 
-use glam::{Mat3, Vec3, vec3};
+use glam::{Mat3, vec3};
 use gsdf_demo::scenes;
 use gsdf_nostd::{Node, Program, Ray, Span, Transform};
 use gsdf_simd::{Caster, LengthsDiffer, Level, Pixel, RayHits, Rays, Scene};
@@ -211,6 +211,15 @@ fn many_rays_on_several_threads() {
     }
 }
 
+/// Room for distances alone.
+fn distances(distance: &mut [f32]) -> RayHits<'_> {
+    RayHits {
+        distance,
+        normal: None,
+        leaf: None,
+    }
+}
+
 #[test]
 fn slices_of_different_lengths_are_refused() {
     let scene = Scene::new(scenes::PART.program());
@@ -222,14 +231,9 @@ fn slices_of_different_lengths_are_refused() {
         range: None,
     };
     let mut distance = [0.0; 3];
-    let hits = |distance| RayHits {
-        distance,
-        normal: None,
-        leaf: None,
-    };
     let refused = Err(LengthsDiffer { expected: 3, found: 2 });
-    assert_eq!(caster.cast(&rays(&[1.0; 2]), hits(&mut distance)), refused);
-    assert_eq!(caster.cast(&rays(&[1.0; 3]), hits(&mut distance[..2])), refused);
+    assert_eq!(caster.cast(&rays(&[1.0; 2]), distances(&mut distance)), refused);
+    assert_eq!(caster.cast(&rays(&[1.0; 3]), distances(&mut distance[..2])), refused);
     assert_eq!(caster.any(&rays(&[1.0; 3]), &mut [false; 2]), refused);
     assert_eq!(caster.any(&rays(&[1.0; 3]), &mut [false; 3]), Ok(()));
     let message = LengthsDiffer { expected: 3, found: 2 }.to_string();

@@ -164,6 +164,9 @@ fn push<T: Lanes, L: Solid>(
         let (place, touched) = work.cuts[from + cut];
         let touched = touched & alive;
         starts[cut % MOST_CUTS] = end;
+        if touched == 0 {
+            continue;
+        }
         leaf::spans(token, view, place, touched, &mut work.rays, &mut work.spans[end..], 1);
         end += touched.count_ones() as usize;
         let mut bits = touched;
