@@ -231,9 +231,15 @@ fn a_frame_of_another_size_changes_no_bit() {
             };
             let mut count = 0;
             for _ in 0..8 {
-                let reach = if rng.random() { 1e2 } else { 3e8 / size };
-                let (_, trial) = corpus::ray(&mut rng, &shape, size, reach);
-                let Ok(ray) = Ray::new(trial.origin, trial.direction) else {
+                // At the solid, or from far away at whatever of it has no end: there the largest numbers meet.
+                let (origin, direction) = if rng.random() {
+                    let trial = corpus::ray(&mut rng, &shape, size, 1e2).1;
+                    (trial.origin, trial.direction)
+                } else {
+                    let distance = log_uniform(&mut rng, 1e6, 5e8);
+                    ((unit(&mut rng) * distance).as_vec3(), unit(&mut rng).as_vec3())
+                };
+                let Ok(ray) = Ray::new(origin, direction) else {
                     continue;
                 };
                 let (hits, found) = (scene(shape).hits(&here, ray), scene(local).hits(&there, ray));
@@ -255,7 +261,7 @@ fn a_frame_of_another_size_changes_no_bit() {
             count
         })
         .sum();
-    assert!(hits > 20_000, "{hits}");
+    assert!(hits > 10_000, "{hits}");
 }
 
 /// A hit with its parameter and its point in other units.
