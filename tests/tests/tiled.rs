@@ -8,7 +8,6 @@ use gsdf_nostd::{
     csg, leaf_set,
 };
 use gsdf_simd::{Level, Pixel, Renderer, Scene, Tiles};
-use gsdf_tests::conformance::octahedron::Octahedron;
 use gsdf_tests::conformance::packet::Composed;
 use gsdf_tests::shape::{KINDS, Shape, unit};
 use rand::{RngExt, SeedableRng};
@@ -226,11 +225,11 @@ fn scenes_of_many_parts() {
 
 leaf_set! {
     /// A leaf type of a user's.
-    pub enum Gem { Sphere(Sphere), Octahedron(Octahedron) }
+    pub enum Gem { Sphere(Sphere), Cuboid(Cuboid) }
 }
 gsdf_simd::vectorized!(Gem);
 
-csg! { const CUT_GEM: Gem = difference(Octahedron::new(Vec3::ZERO, 1.0), Sphere::new(Vec3::X, 0.6)) }
+csg! { const CUT_GEM: Gem = difference(Cuboid::new(Vec3::NEG_ONE, Vec3::ONE), Sphere::new(Vec3::X, 0.6)) }
 
 #[test]
 fn a_leaf_type_of_ones_own_is_rendered_too() {
