@@ -84,7 +84,7 @@ pub use packet::scratch;
 #[cfg(feature = "std")]
 pub use renderer::{Effort, Renderer};
 #[cfg(feature = "std")]
-pub use scene::Scene;
+pub use scene::{Scene, Visible};
 #[cfg(feature = "std")]
 pub use target::{Planes, Records, Target, Tiles, TilesMut, Wants};
 #[cfg(feature = "std")]

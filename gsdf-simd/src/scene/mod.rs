@@ -5,10 +5,12 @@ mod reach;
 mod split;
 mod tree;
 mod view;
+mod visible;
 
 pub(crate) use beam::{Beam, Nearest, Walk};
 pub(crate) use tree::{FANOUT, Tree};
 pub(crate) use view::View;
+pub use visible::Visible;
 
 use core::ops::Range;
 use gsdf_nostd::{Node, Program, Solid};

@@ -10,6 +10,7 @@ mod shade;
 mod state;
 
 pub use pixels::{Pixel, TILE_PIXELS, TILE_SIDE, Tile};
+pub(crate) use reduce::{Known, Reduced, Waiting};
 pub(crate) use state::Workspace;
 
 use crate::lanes::Lanes;

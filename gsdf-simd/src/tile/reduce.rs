@@ -195,7 +195,7 @@ mod tests {
 
     fn member(nodes: &[Node], inside: &[bool]) -> bool {
         let mut leaves = inside.iter();
-        let mut stack = Vec::new();
+        let mut stack: Vec<bool> = Vec::new();
         for node in nodes {
             let made = match node {
                 Node::Leaf { .. } => *leaves.next().unwrap(),
