@@ -1,9 +1,9 @@
 //! Operations, roots, sweeps and steps per ray. There is no clock in it: it prints the same on every machine.
 
-use anyhow::{Context, Result};
+use anyhow::Result;
 use gsdf_benches::counts::{Tally, of_direction, of_leaves, of_scene};
 use gsdf_benches::inputs::{COUNT, SEED};
-use gsdf_demo::scenes;
+use gsdf_benches::scenes::Scene;
 use std::io::{self, Write};
 use std::process::ExitCode;
 
@@ -63,8 +63,9 @@ fn scenes(out: &mut impl Write) -> Result<()> {
     )?;
     writeln!(out, "{}", columns("scene, method"))?;
     let mut repeated = Vec::new();
-    for scene in [scenes::s1(), scenes::s2(), scenes::s3(), scenes::s4(), scenes::s5()] {
-        let leaves = scene.program().context("a scene")?.leaves();
+    for name in ["s1", "s2", "s3", "s4", "s5"] {
+        let scene = Scene::by_name(name)?;
+        let leaves = scene.program()?.leaves();
         let counts = of_scene(&scene, if leaves > 256 { SIZE_OF_MANY } else { SIZE })?;
         let rays = counts.closed.queries as f64;
         writeln!(out, "{}", line(&format!("{}: closed form", counts.name), &counts.closed))?;

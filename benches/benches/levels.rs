@@ -9,8 +9,16 @@ use gsdf_simd::Level;
 use std::io::{self, Write};
 use std::process::ExitCode;
 
-/// Scenes and the pixels along each side of their pictures: brute force over thousands of leaves takes its time.
-const SCENES: [(&str, u32); 5] = [("s1", 256), ("s2", 256), ("s3", 128), ("s4", 24), ("s5", 32)];
+/// Scenes and the pixels along each side of their pictures.
+const SCENES: [(&str, u32); 7] = [
+    ("s1", 512),
+    ("s2", 512),
+    ("s3", 512),
+    ("s4", 512),
+    ("s5", 512),
+    ("s6-22", 512),
+    ("s7", 512),
+];
 
 fn run(arguments: &Arguments) -> Result<()> {
     let pool = rayon::ThreadPoolBuilder::new()

@@ -6,7 +6,7 @@ use gsdf_benches::arguments::Arguments;
 use gsdf_benches::machine::Machine;
 use gsdf_benches::race::{Pools, race, thread_ceiling};
 use gsdf_benches::report;
-use gsdf_demo::scenes;
+use gsdf_benches::scenes::Scene;
 use std::fs::File;
 use std::io::{self, Write};
 use std::process::ExitCode;
@@ -26,7 +26,7 @@ fn run(arguments: &Arguments) -> Result<()> {
     let ceiling = thread_ceiling(&pools);
     writeln!(out, "{}\n{}", report::head(&machine, &rules, ceiling), report::columns())?;
     for name in &arguments.scenes {
-        let scene = scenes::by_name(name).with_context(|| format!("no scene {name}"))?;
+        let scene = Scene::by_name(name)?;
         race(&scene, &rules, &pools, &mut |outcome| {
             writeln!(out, "{}", report::line(outcome))?;
             if let Some(csv) = &mut csv {

@@ -1,10 +1,12 @@
 //! A scene made ready for the contenders: what both sides get before the clock starts.
 
+use crate::contender::Contender;
 use crate::frame::Frame;
-use anyhow::{Context, Result};
-use gsdf_demo::scenes::Scene;
-use gsdf_nostd::{Program, Raster, SphereTracer};
+use crate::scenes::{Primitive, Scene};
+use anyhow::Result;
+use gsdf_nostd::{Camera, Program, Raster, SphereTracer};
 use gsdf_simd::Level;
+use std::sync::Arc;
 
 /// The marcher's tolerance, relative to the distance travelled.
 pub const EPSILON: f32 = 1e-4;
@@ -17,8 +19,12 @@ pub const MAX_STEPS: u32 = 128;
 pub struct Arena<'a> {
     /// The name of the scene.
     pub name: &'static str,
-    /// The program, the same for all contenders; nobody culls.
-    pub program: Program<'a>,
+    /// The program, the same for all contenders.
+    pub program: Program<'a, Primitive>,
+    /// The program prepared, for those who look at what a tile can see.
+    pub prepared: Arc<gsdf_simd::Scene<'a, Primitive>>,
+    /// From where it is seen.
+    pub camera: Camera,
     /// The picture.
     pub raster: Raster,
     /// Where the marcher gives up: a hundredth beyond the farthest thing in the picture, which it is told for nothing, so that its misses end early.
@@ -35,17 +41,29 @@ impl<'a> Arena<'a> {
     /// # Errors
     /// Where the scene is not a program.
     pub fn new(scene: &'a Scene, size: u32) -> Result<Self> {
-        let program = scene.program().with_context(|| format!("scene {}", scene.name))?;
-        let mut arena = Self {
+        let program = scene.program()?;
+        let arena = Self {
             name: scene.name,
             program,
+            prepared: Arc::new(gsdf_simd::Scene::new(program)),
+            camera: scene.camera,
             raster: scene.camera.raster(size, size),
             end: f32::INFINITY,
             tracer: tracer(1.0),
             level: Level::best(),
         };
+        Ok(arena.sized(size))
+    }
+
+    /// The same in another size.
+    #[must_use]
+    pub fn sized(&self, size: u32) -> Self {
+        let mut arena = Self {
+            raster: self.camera.raster(size, size),
+            ..self.clone()
+        };
         arena.end = 1.01 * arena.exact().farthest().unwrap_or(1.0);
-        Ok(arena)
+        arena
     }
 
     /// The same at another level.
@@ -69,11 +87,12 @@ impl<'a> Arena<'a> {
         self.raster.width() as usize * self.raster.height() as usize
     }
 
-    /// The picture as the closed form has it, on all threads.
+    /// The picture as the closed form has it, in records.
     #[must_use]
     pub fn exact(&self) -> Frame {
-        let mut frame = Frame::new(self.pixels());
-        crate::contender::Contender::ClosedPackets.render(self, &mut frame);
+        let mut frame = Frame::new(&self.raster);
+        Contender::ClosedTiles.ready(self)(&mut frame);
+        frame.settle(Contender::ClosedTiles);
         frame
     }
 }

@@ -4,8 +4,8 @@ use crate::arena::{Arena, tracer};
 use crate::counted::{Counted, Operations, counting};
 use crate::inputs::{COUNT, Inputs, SEED};
 use crate::leaves::{Visitor, visit_leaves};
+use crate::scenes::Scene;
 use anyhow::Result;
-use gsdf_demo::scenes::Scene;
 use gsdf_nostd::{Anywhere, March, Ray, Solid, Span, Toward, V3, march};
 
 /// Operations, added up over many queries.
@@ -182,8 +182,8 @@ fn cast(arena: &Arena<'_>, ray: &Ray, spans: &mut [Span<Counted>]) -> March<Coun
 #[cfg(test)]
 mod tests {
     use super::{of_direction, of_leaves, of_scene};
+    use crate::scenes::Scene;
     use anyhow::Result;
-    use gsdf_demo::scenes;
 
     #[test]
     fn a_direction_is_four_divisions() {
@@ -205,7 +205,7 @@ mod tests {
 
     #[test]
     fn a_scene_is_counted_as_it_is_cast() -> Result<()> {
-        let scene = scenes::s2();
+        let scene = Scene::by_name("s2")?;
         let counts = of_scene(&scene, 24)?;
         let (closed, again) = (counts.closed.operations, of_scene(&scene, 24)?.closed.operations);
         assert_eq!(closed, again);

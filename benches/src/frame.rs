@@ -1,14 +1,23 @@
 //! What contenders fill, and how two of them are told apart.
 
-use gsdf_simd::Pixel;
+use crate::contender::Contender;
+use gsdf_nostd::Raster;
+use gsdf_simd::{Pixel, TILE_PIXELS, TILE_SIDE, Tile, Tiles};
 
-/// A picture: records from the closed form, which finds normals and leaves too, and depths from the marcher, which need not.
+/// A picture: records from the closed form, which finds normals and leaves too, and depths from the marcher, which need not. Who works in tiles fills tiles; they become records
+/// when they are compared.
 #[derive(Clone, Debug)]
 pub struct Frame {
     /// What the closed form fills.
     pub pixels: Vec<Pixel>,
     /// What the marcher fills: infinite where it hits nothing.
     pub depths: Vec<f32>,
+    /// What the closed form fills tile by tile.
+    pub tiles: Tiles,
+    /// What the marcher fills tile by tile, in the order of [`Tile::distance`].
+    pub traced: Vec<[f32; TILE_PIXELS]>,
+    width: u32,
+    height: u32,
 }
 
 /// How far depths may differ, relatively, before the marcher's is called wrong.
@@ -34,12 +43,39 @@ impl Wrong {
 }
 
 impl Frame {
-    /// A picture of so many pixels, none of which shows anything.
+    /// A picture none of whose pixels shows anything.
     #[must_use]
-    pub fn new(pixels: usize) -> Self {
+    pub fn new(raster: &Raster) -> Self {
+        let (width, height) = (raster.width(), raster.height());
+        let pixels = width as usize * height as usize;
+        let tiles = Tiles::new(width, height);
         Self {
             pixels: vec![Pixel::NOTHING; pixels],
             depths: vec![f32::INFINITY; pixels],
+            traced: vec![[f32::INFINITY; TILE_PIXELS]; tiles.tiles().len()],
+            tiles,
+            width,
+            height,
+        }
+    }
+
+    /// Lays out row by row what a contender has filled tile by tile.
+    pub fn settle(&mut self, contender: Contender) {
+        let places = (0..self.height).flat_map(|y| (0..self.width).map(move |x| (x, y)));
+        match contender {
+            Contender::ClosedTiles | Contender::ClosedTilesBare => {
+                for (pixel, (x, y)) in self.pixels.iter_mut().zip(places) {
+                    *pixel = self.tiles.pixel(x, y).unwrap_or(Pixel::NOTHING);
+                }
+            }
+            Contender::TracedTiles => {
+                let columns = (self.width as usize).div_ceil(TILE_SIDE);
+                for (depth, (x, y)) in self.depths.iter_mut().zip(places) {
+                    let (x, y) = (x as usize, y as usize);
+                    *depth = self.traced[y / TILE_SIDE * columns + x / TILE_SIDE][Tile::index(x, y)];
+                }
+            }
+            Contender::ClosedPackets | Contender::ClosedRays | Contender::TracedPackets | Contender::TracedRays => {}
         }
     }
 
@@ -76,11 +112,14 @@ impl Frame {
 #[cfg(test)]
 mod tests {
     use super::{Frame, Wrong};
+    use glam::Vec3;
+    use gsdf_nostd::Camera;
     use gsdf_simd::Pixel;
 
     #[test]
     fn each_kind_of_wrong_pixel_is_told() {
-        let mut frame = Frame::new(6);
+        let camera = Camera::pinhole(Vec3::Z, Vec3::ZERO, Vec3::Y, 0.5).expect("a camera");
+        let mut frame = Frame::new(&camera.raster(6, 1));
         let nothing = f32::INFINITY;
         let pairs = [
             (nothing, nothing),

@@ -3,10 +3,10 @@
 use crate::arena::Arena;
 use crate::contender::Contender;
 use crate::frame::Frame;
+use crate::scenes::Scene;
 use crate::stats::Estimate;
 use anyhow::{Context, Result, bail, ensure};
 use clap::{Parser, value_parser};
-use gsdf_demo::scenes;
 use gsdf_simd::Level;
 use rayon::ThreadPool;
 use std::fmt;
@@ -72,18 +72,19 @@ impl FromStr for Turn {
     }
 }
 
-/// The nanoseconds per pixel of a turn of packets in closed form, in this process.
+/// The nanoseconds per pixel of a turn of tiles in closed form, in this process.
 ///
 /// # Errors
 /// Where there is no such scene.
 pub fn take(turn: &Turn, pool: &ThreadPool) -> Result<f64> {
-    let scene = scenes::by_name(&turn.scene).with_context(|| format!("no scene {}", turn.scene))?;
+    let scene = Scene::by_name(&turn.scene)?;
     let arena = Arena::new(&scene, turn.size)?.at_level(turn.level);
-    let mut frame = Frame::new(arena.pixels());
+    let mut frame = Frame::new(&arena.raster);
+    let mut paint = Contender::ClosedTiles.ready(&arena);
     let elapsed = pool.install(|| {
         let begin = Instant::now();
         for _ in 0..turn.repeats {
-            Contender::ClosedPackets.render(&arena, &mut frame);
+            paint(&mut frame);
             std::hint::black_box(&mut frame);
         }
         begin.elapsed()

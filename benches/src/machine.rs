@@ -74,6 +74,14 @@ fn load() -> Option<f64> {
         .ok()
 }
 
+/// The most bytes of memory that this process had at a time so far, as Linux tells it.
+#[must_use]
+pub fn most_memory() -> Option<u64> {
+    let facts = std::fs::read_to_string("/proc/self/status").ok()?;
+    let most = facts.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;
+    Some(most.trim().strip_suffix("kB")?.trim().parse::<u64>().ok()? << 10)
+}
+
 /// The date so many days after 1 January 1970, in the calendar's cycles of 400 years that begin on 1 March 2000.
 fn date(days: u64) -> String {
     // Counted from 1 March of the year 0, leap days come last in a year, a century and a cycle.

@@ -1,11 +1,11 @@
 //! The race: two contenders by turns, round after round, in one process.
 
 use crate::arena::Arena;
-use crate::contender::Contender;
+use crate::contender::{Contender, Painter};
 use crate::frame::{Frame, Wrong};
+use crate::scenes::Scene;
 use crate::stats::Estimate;
 use anyhow::{Context, Result};
-use gsdf_demo::scenes::Scene;
 use gsdf_simd::Level;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use std::time::{Duration, Instant};
@@ -22,7 +22,7 @@ const RELAXATIONS: [f32; 2] = [1.0, 1.2];
 pub struct Rules {
     /// How many rounds, each of one turn of A and one of B.
     pub rounds: u32,
-    /// The pixels along each side of the picture of a scene of a few leaves. Brute force takes its time: half of that for dozens of leaves, a quarter for thousands.
+    /// The pixels along each side of a picture in tiles.
     pub size: u32,
     /// The threads whose worth is measured against one.
     pub threads: usize,
@@ -31,16 +31,39 @@ pub struct Rules {
 }
 
 impl Rules {
-    /// The pixels along each side of the picture of a scene of so many leaves.
-    fn size_for(&self, leaves: usize) -> u32 {
-        let size = match leaves {
-            0..=8 => self.size,
-            9..=256 => self.size / 2,
-            _ => self.size / 4,
+    /// The pixels along each side of the picture of a race between these, on a scene of so many leaves; `None` where brute force would take too long. Both sides render the same
+    /// picture: a smaller one shows more of a scene in each tile, which favours tiles less.
+    fn size_for(&self, sides: [Contender; 2], leaves: usize) -> Option<u32> {
+        let is_scalar = |contender| matches!(contender, Contender::ClosedRays | Contender::TracedRays);
+        let share = if sides.into_iter().any(Contender::is_brute) {
+            match leaves {
+                0..=8 => 4,
+                9..=256 => 16,
+                257..=5_000 => 32,
+                5_001..=20_000 if !sides.into_iter().any(is_scalar) => 64,
+                _ => return None,
+            }
+        } else if sides.into_iter().any(Contender::is_traced) {
+            if leaves > 20_000 { 8 } else { 2 }
+        } else {
+            1
         };
-        size.max(8)
+        Some((self.size / share).max(8))
     }
 }
+
+/// What is raced, one thread each.
+const PAIRS: [(Contender, Contender); 8] = [
+    // Against itself: how far from 1 this machine puts two sides that are equal.
+    (Contender::ClosedTiles, Contender::ClosedTiles),
+    (Contender::ClosedTiles, Contender::TracedTiles),
+    (Contender::ClosedTilesBare, Contender::ClosedTiles),
+    (Contender::ClosedTiles, Contender::ClosedPackets),
+    (Contender::ClosedTilesBare, Contender::ClosedPackets),
+    (Contender::ClosedPackets, Contender::TracedPackets),
+    (Contender::ClosedRays, Contender::TracedRays),
+    (Contender::ClosedPackets, Contender::ClosedRays),
+];
 
 /// One side of a race.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -49,6 +72,21 @@ pub struct Side {
     pub contender: Contender,
     /// On how many threads.
     pub threads: usize,
+}
+
+/// A side that is ready.
+struct Racer<'a> {
+    paint: Painter<'a>,
+    threads: usize,
+}
+
+impl<'a> Racer<'a> {
+    fn new(side: Side, arena: &'a Arena<'_>) -> Self {
+        Self {
+            paint: side.contender.ready(arena),
+            threads: side.threads,
+        }
+    }
 }
 
 /// What came of a race.
@@ -103,25 +141,25 @@ impl Pools {
     }
 
     /// The nanoseconds per pixel of one turn. The clock starts and stops within the pool: waking the first thread is not in it, sharing work with the others is.
-    fn turn(&self, side: Side, arena: &Arena<'_>, frame: &mut Frame, repeats: u32) -> f64 {
-        let pool = if side.threads == 1 { &self.one } else { &self.several };
+    fn turn(&self, racer: &mut Racer<'_>, frame: &mut Frame, repeats: u32) -> f64 {
+        let pool = if racer.threads == 1 { &self.one } else { &self.several };
         let elapsed = pool.install(|| {
             let begin = Instant::now();
             for _ in 0..repeats {
-                side.contender.render(arena, frame);
+                (racer.paint)(frame);
                 std::hint::black_box(&mut *frame);
             }
             begin.elapsed()
         });
-        elapsed.as_secs_f64() * 1e9 / (f64::from(repeats) * arena.pixels() as f64)
+        elapsed.as_secs_f64() * 1e9 / (f64::from(repeats) * frame.pixels.len() as f64)
     }
 
     /// How many pictures make a turn of each side, by the faster of two trials each. The turns of both last equally long, so that what disturbs them disturbs both alike: a short turn
     /// would slip through where a long one is interrupted.
-    fn repeats(&self, sides: [Side; 2], arena: &Arena<'_>, frame: &mut Frame) -> [u32; 2] {
-        let pictures = sides.map(|side| {
-            let trials = [(); 2].map(|()| self.turn(side, arena, frame, 1));
-            trials[0].min(trials[1]) * arena.pixels() as f64
+    fn repeats(&self, racers: [&mut Racer<'_>; 2], frame: &mut Frame) -> [u32; 2] {
+        let pictures = racers.map(|racer| {
+            let trials = [(); 2].map(|()| self.turn(racer, frame, 1));
+            trials[0].min(trials[1]) * frame.pixels.len() as f64
         });
         let turn = pictures[0].max(pictures[1]).max(LEAST_TURN.as_nanos() as f64);
         pictures.map(|picture| (turn / picture).round().clamp(1.0, 1e6) as u32)
@@ -153,25 +191,19 @@ pub fn thread_ceiling(pools: &Pools) -> f64 {
 /// Where the scene is not a program, or `finished` fails.
 pub fn race(scene: &Scene, rules: &Rules, pools: &Pools, finished: &mut impl FnMut(&Outcome) -> Result<()>) -> Result<()> {
     let alone = |contender| Side { contender, threads: 1 };
-    let size = rules.size_for(scene.program()?.leaves());
-    let arena = Arena::new(scene, size)?.at_level(rules.level);
-    for (a, b) in [
-        // Against itself: how far from 1 this machine puts two sides that are equal.
-        (Contender::ClosedPackets, Contender::ClosedPackets),
-        (Contender::ClosedPackets, Contender::TracedPackets),
-        (Contender::ClosedRays, Contender::TracedRays),
-        (Contender::ClosedPackets, Contender::ClosedRays),
-    ] {
-        finished(&one_race(&arena, alone(a), alone(b), rules.rounds, pools))?;
+    let full = Arena::new(scene, rules.size)?.at_level(rules.level);
+    for (a, b) in PAIRS {
+        if let Some(size) = rules.size_for([a, b], full.program.leaves()) {
+            finished(&one_race(&full.sized(size), alone(a), alone(b), rules.rounds, pools))?;
+        }
     }
     if rules.threads > 1 {
-        // 64 times the pixels: what is measured is a picture worth sharing.
-        let larger = Arena::new(scene, 8 * size)?.at_level(rules.level);
+        let contender = Contender::ClosedTiles;
         let shared = Side {
-            contender: Contender::ClosedPackets,
+            contender,
             threads: rules.threads,
         };
-        finished(&one_race(&larger, shared, alone(Contender::ClosedPackets), rules.rounds, pools))?;
+        finished(&one_race(&full, shared, alone(contender), rules.rounds, pools))?;
     }
     Ok(())
 }
@@ -184,17 +216,19 @@ fn one_race(arena: &Arena<'_>, a: Side, b: Side, rounds: u32, pools: &Pools) -> 
     } else {
         arena.clone()
     };
-    let [repeats_a, repeats_b] = pools.repeats([a, b], arena, &mut frame);
+    let (mut racer_a, mut racer_b) = (Racer::new(a, arena), Racer::new(b, arena));
+    let [repeats_a, repeats_b] = pools.repeats([&mut racer_a, &mut racer_b], &mut frame);
     let (mut times_a, mut times_b) = (Vec::new(), Vec::new());
     for round in 0..rounds.max(1) {
         if round % 2 == 0 {
-            times_a.push(pools.turn(a, arena, &mut frame, repeats_a));
-            times_b.push(pools.turn(b, arena, &mut frame, repeats_b));
+            times_a.push(pools.turn(&mut racer_a, &mut frame, repeats_a));
+            times_b.push(pools.turn(&mut racer_b, &mut frame, repeats_b));
         } else {
-            times_b.push(pools.turn(b, arena, &mut frame, repeats_b));
-            times_a.push(pools.turn(a, arena, &mut frame, repeats_a));
+            times_b.push(pools.turn(&mut racer_b, &mut frame, repeats_b));
+            times_a.push(pools.turn(&mut racer_a, &mut frame, repeats_a));
         }
     }
+    frame.settle(b.contender);
     let ratios: Vec<f64> = times_a.iter().zip(&times_b).map(|(a, b)| b / a).collect();
     let median = |sample: &[f64]| Estimate::new(sample).map_or(f64::NAN, |estimate| estimate.median);
     Outcome {
@@ -217,11 +251,16 @@ fn one_race(arena: &Arena<'_>, a: Side, b: Side, rounds: u32, pools: &Pools) -> 
 /// The arena with the relaxation with which the marcher is faster there: a trial of three turns each, by turns.
 fn best_relaxed<'a>(arena: &Arena<'a>, side: Side, pools: &Pools, frame: &mut Frame) -> Arena<'a> {
     let candidates = RELAXATIONS.map(|relaxation| arena.relaxed(relaxation));
-    let [repeats, _] = pools.repeats([side, side], &candidates[0], frame);
     let mut least = [f64::INFINITY; RELAXATIONS.len()];
-    for _ in 0..3 {
-        for (least, candidate) in least.iter_mut().zip(&candidates) {
-            *least = least.min(pools.turn(side, candidate, frame, repeats));
+    {
+        let [plain, relaxed] = &candidates;
+        let mut racers = [Racer::new(side, plain), Racer::new(side, relaxed)];
+        let [plain, relaxed] = &mut racers;
+        let [repeats, _] = pools.repeats([plain, relaxed], frame);
+        for _ in 0..3 {
+            for (least, racer) in least.iter_mut().zip(&mut racers) {
+                *least = least.min(pools.turn(racer, frame, repeats));
+            }
         }
     }
     let [plain, relaxed] = candidates;
@@ -230,32 +269,34 @@ fn best_relaxed<'a>(arena: &Arena<'a>, side: Side, pools: &Pools, frame: &mut Fr
 
 #[cfg(test)]
 mod tests {
-    use super::{Pools, Rules, race, thread_ceiling};
+    use super::{PAIRS, Pools, Rules, race, thread_ceiling};
+    use crate::contender::Contender;
+    use crate::scenes::Scene;
     use anyhow::Result;
-    use gsdf_demo::scenes;
     use gsdf_simd::Level;
 
     #[test]
     fn a_race_has_an_outcome_for_every_pair() -> Result<()> {
         let rules = Rules {
             rounds: 2,
-            size: 16,
+            size: 64,
             threads: 2,
             level: Level::best(),
         };
         let mut outcomes = Vec::new();
-        race(&scenes::s1(), &rules, &Pools::new(rules.threads)?, &mut |outcome| {
+        race(&Scene::by_name("s1")?, &rules, &Pools::new(rules.threads)?, &mut |outcome| {
             outcomes.push(outcome.clone());
             Ok(())
         })?;
-        assert_eq!(outcomes.len(), 5);
+        assert_eq!(outcomes.len(), PAIRS.len() + 1);
         for outcome in &outcomes {
             assert!(outcome.a_ns > 0.0 && outcome.b_ns > 0.0 && outcome.ratio.median > 0.0);
             assert_eq!(outcome.wrong.is_some(), outcome.b.contender.is_traced());
             assert_eq!(outcome.relaxation.is_some(), outcome.b.contender.is_traced());
             assert!(outcome.hit_rate > 0.5);
         }
-        assert_eq!((outcomes[4].a.threads, outcomes[4].b.threads, outcomes[4].size), (2, 1, 128));
+        let shared = outcomes.last().expect("the threads come last");
+        assert_eq!((shared.a.threads, shared.b.threads, shared.size), (2, 1, 64));
         Ok(())
     }
 
@@ -266,14 +307,20 @@ mod tests {
     }
 
     #[test]
-    fn heavy_scenes_are_rendered_small() {
+    fn brute_force_renders_heavy_scenes_small_or_not_at_all() {
         let rules = Rules {
             rounds: 1,
-            size: 512,
+            size: 1024,
             threads: 1,
             level: Level::PORTABLE,
         };
-        assert_eq!([2, 64, 4096].map(|leaves| rules.size_for(leaves)), [512, 256, 128]);
-        assert_eq!(Rules { size: 16, ..rules }.size_for(4096), 8);
+        let tiles = Contender::ClosedTiles;
+        let of = |other| [2, 64, 4096, 10_001, 97_336].map(|leaves| rules.size_for([tiles, other], leaves));
+        assert_eq!(of(tiles), [Some(1024); 5]);
+        assert_eq!(of(Contender::TracedTiles), [Some(512), Some(512), Some(512), Some(512), Some(128)]);
+        assert_eq!(of(Contender::ClosedPackets), [Some(256), Some(64), Some(32), Some(16), None]);
+        assert_eq!(of(Contender::TracedRays), [Some(256), Some(64), Some(32), None, None]);
+        let small = Rules { size: 16, ..rules };
+        assert_eq!(small.size_for([tiles, Contender::ClosedPackets], 4096), Some(8));
     }
 }

@@ -17,9 +17,12 @@ pub fn head(machine: &Machine, rules: &Rules, ceiling: f64) -> String {
          threads   {threads} do {ceiling:.2} times the work of one here and now, at a loop without memory: the ceiling of any picture\n\
          rules     {rounds} rounds, A and B by turns in one process; medians; intervals of the ratios from order statistics\n\
          level     {level}: packets of {} rays\n\
-         closed    every leaf of every ray; distance, normal and leaf stored\n\
-         marcher   every leaf at every step; distance stored; epsilon {EPSILON:e} relative, {MAX_STEPS} steps, the faster relaxation,\n          \
-         ends just beyond the farthest thing in the picture\n\
+         tiles     of 16 x 16 pixels; only what a tile's beam may meet is looked at. The scene is prepared before the clock starts; what depends on\n          \
+         the camera, and finding what the beams meet, is within. Stored tile by tile: distance, normal and leaf; bare: distance and leaf\n\
+         packets   and rays: every leaf along every ray and at every step; stored as records, row by row\n\
+         marcher   distance alone stored; epsilon {EPSILON:e} relative, {MAX_STEPS} steps, the faster relaxation, ends just beyond the farthest\n          \
+         thing in the picture\n\
+         sizes     both sides of a line render the same picture; lines of different sizes are not to be compared\n\
          wrong     pixels where the marcher hits and the closed form does not + misses + depths off by more than {DEPTH_TOLERANCE:e}\n\
          seeds     none: each ray goes through the centre of its pixel\n",
         level.lanes()

@@ -122,7 +122,7 @@ pub use renderer::RowRenderer;
 #[cfg(feature = "std")]
 pub use renderer::{Effort, Renderer};
 #[cfg(feature = "std")]
-pub use scene::Scene;
+pub use scene::{Scene, Visible};
 #[cfg(feature = "std")]
 pub use target::{Planes, Records, Target, Tiles, TilesMut, Wants};
 #[cfg(feature = "std")]

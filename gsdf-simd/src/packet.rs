@@ -151,7 +151,7 @@ impl<T: Lanes> Packet<T> {
     /// Where `scratch` is shorter than the program has leaves.
     #[inline(always)]
     pub fn cast<L: Solid>(&self, program: &Program<'_, L>, scratch: &mut [Span<T>]) -> Result<Hits<T>, ProgramError> {
-        Ok(self.cast_in(program, Anywhere, enough(program, scratch)?))
+        self.cast_in(program, Anywhere, scratch)
     }
 
     /// The generalized signed distance function of each ray from its origin: positive outside, negative inside,
@@ -180,9 +180,19 @@ impl<T: Lanes> Packet<T> {
         }
     }
 
-    /// [`cast`](Self::cast) with what is known of the origins, in scratch memory of the right length.
+    /// [`cast`](Self::cast) with what is known of the origins: [`SeenFrom`](gsdf_nostd::SeenFrom) one point, where all rays
+    /// of many packets start there.
+    ///
+    /// # Errors
+    /// As `cast`.
     #[inline(always)]
-    pub(crate) fn cast_in<L: Solid, F: Footing<L, T>>(&self, program: &Program<'_, L>, footing: F, spans: &mut [Span<T>]) -> Hits<T> {
+    pub fn cast_in<L: Solid, F: Footing<L, T>>(
+        &self,
+        program: &Program<'_, L>,
+        footing: F,
+        scratch: &mut [Span<T>],
+    ) -> Result<Hits<T>, ProgramError> {
+        let spans = enough(program, scratch)?;
         let nothing = self.scale.splat_like(f32::INFINITY);
         program.spans_along(&self.line, footing, spans);
         let found = march(program.nodes(), spans, self.start);
@@ -201,12 +211,12 @@ impl<T: Lanes> Packet<T> {
                 },
             }
         };
-        Hits {
+        Ok(Hits {
             t: T::select(hit, along, nothing),
             hit,
             met,
             sweeps: found.sweeps,
-        }
+        })
     }
 }
 

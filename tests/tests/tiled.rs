@@ -1,13 +1,14 @@
 //! What tiles leave out changes no pixel: pictures of random scenes against one scalar query per pixel, bit for bit, at every
 //! level. Solids on grids, whose surfaces coincide and whose pixels tie; copies of copies; eyes inside of solids, on their
 //! surfaces and far away; poses; solids and complements without bounds; parts that are products and parts that are not.
+//! And what a scene says is visible through squares of pixels is enough for these pixels.
 
 use glam::{Mat3, Vec3, vec3};
 use gsdf_nostd::{
     Camera, CappedCylinder, Cone, Cuboid, Cylinder, HalfSpace, Leaf, Node, Program, Raster, Solid, Span, Sphere, Toward, Transform, V3,
     csg, leaf_set,
 };
-use gsdf_simd::{Level, Pixel, Renderer, Scene, Tiles};
+use gsdf_simd::{Level, Pixel, Renderer, Scene, Tiles, Visible};
 use gsdf_tests::conformance::packet::Composed;
 use gsdf_tests::shape::{KINDS, Shape, unit};
 use rand::{RngExt, SeedableRng};
@@ -70,6 +71,7 @@ fn check(program: &Program<'_>, raster: &Raster, what: &str) -> Shown {
             );
         }
     }
+    check_visible(&scene, raster, &expected, what);
     let hits = expected.iter().filter(|pixel| pixel.leaf != Pixel::NO_LEAF).count() as u64;
     let leaves = |pixel: &&Pixel| raster.camera().forward().dot(Vec3::from(pixel.normal)) > 0.5;
     Shown {
@@ -77,6 +79,48 @@ fn check(program: &Program<'_>, raster: &Raster, what: &str) -> Shown {
         hits,
         misses: expected.len() as u64 - hits,
         leaving: expected.iter().filter(leaves).count() as u64,
+    }
+}
+
+/// The pixels of each square, cast at what is visible there alone; and its standard distance on the way to them, which no
+/// marcher's step may exceed what is left of it.
+fn check_visible(scene: &Scene<'_, Leaf>, raster: &Raster, expected: &[Pixel], what: &str) {
+    let poses: Vec<_> = (1..).map_while(|frame| scene.program().pose(frame).copied()).collect();
+    let mut visible = Visible::new();
+    // Squares of all sizes, also some that reach beyond the picture.
+    let side = 1 + (7 * raster.width() + raster.height()) % 20;
+    for (left, top) in
+        (0..raster.height().div_ceil(side)).flat_map(|y| (0..raster.width().div_ceil(side)).map(move |x| (x * side, y * side)))
+    {
+        scene.visible(raster, left, top, side, &mut visible);
+        let program = Program::new(visible.nodes()).ok().map(|program| program.posed(&poses).unwrap());
+        assert_eq!(program.is_none(), visible.nodes().is_empty(), "{what}");
+        assert!(visible.leaves().is_sorted_by(|a, b| a < b), "{what}");
+        let mut spans = vec![Span::EMPTY; visible.leaves().len()];
+        for (x, y) in (top..raster.height().min(top + side)).flat_map(|y| (left..raster.width().min(left + side)).map(move |x| (x, y))) {
+            let ray = raster.ray(x, y).ok();
+            let hit = program.and_then(|program| program.along(ray?, &mut spans).unwrap().cast());
+            let found = hit.map_or(Pixel::NOTHING, |hit| Pixel {
+                distance: hit.t,
+                normal: hit.normal.to_array(),
+                leaf: visible.leaves()[hit.leaf as usize],
+            });
+            let expected = &expected[(y * raster.width() + x) as usize];
+            assert_eq!(bits(&found), bits(expected), "{what}, visible, pixel {x}, {y} of {raster:?}");
+            let (Some(program), Some(ray), Some(hit)) = (program, ray, hit) else {
+                continue;
+            };
+            for share in [0.0, 0.5, 0.9] {
+                let left = f64::from(hit.t) * (1.0 - share) * ray.direction().as_dvec3().length();
+                let p = ray.origin().as_dvec3() + ray.direction().as_dvec3() * (share * f64::from(hit.t));
+                let step = program.distance(V3::new(p.x, p.y, p.z)).abs();
+                let extent = p.abs().max_element() + left;
+                assert!(
+                    step <= left + 1e-4 * extent,
+                    "{what}, visible, pixel {x}, {y}: {step} with {left} left"
+                );
+            }
+        }
     }
 }
 

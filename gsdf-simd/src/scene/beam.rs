@@ -65,11 +65,12 @@ const OF_DISTANCE: f32 = 1.0 / 65_536.0;
 const OF_PIXEL: f32 = 1.0 / 64.0;
 
 impl Beam {
-    /// The beam through the tile whose left upper corner is pixel (`x`, `y`).
-    pub(crate) fn new(raster: &Raster, x: u32, y: u32, packets: Grid) -> Self {
+    /// The beam through the square of `side` pixels whose left upper corner is pixel (`x`, `y`). Which packets touch a box is
+    /// told for the side of a tile alone.
+    pub(crate) fn new(raster: &Raster, x: u32, y: u32, side: u32, packets: Grid) -> Self {
         let camera = raster.camera();
         let pixel = raster.pixel();
-        let half = 0.5 * Grid::SIDE as f32;
+        let half = 0.5 * side as f32;
         let across = (x as f32 + half - 0.5 * raster.width() as f32) * pixel;
         let upward = (0.5 * raster.height() as f32 - y as f32 - half) * pixel;
         let spread = camera.projection() == Projection::Pinhole;

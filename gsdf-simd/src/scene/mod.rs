@@ -5,12 +5,14 @@ mod reach;
 mod split;
 mod tree;
 mod view;
+mod visible;
 mod walk;
 
 pub(crate) use beam::{Beam, Grid};
 pub(crate) use tree::Group;
 pub(crate) use tree::{FANOUT, Tree};
 pub(crate) use view::{Picture, View};
+pub use visible::Visible;
 pub(crate) use walk::{Meets, Met, Walk};
 
 use core::ops::Range;

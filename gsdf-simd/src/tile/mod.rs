@@ -11,6 +11,7 @@ mod single;
 mod state;
 
 pub use pixels::{Pixel, TILE_PIXELS, TILE_SIDE, Tile};
+pub(crate) use reduce::{Known, Reduced, Waiting};
 pub(crate) use single::{Found, cast_packet};
 pub(crate) use state::Workspace;
 
@@ -32,7 +33,7 @@ pub(crate) fn cast<T: Lanes, L: Solid>(
     work.rays.begin([x, y]);
     work.met.clear();
     if let Some(Picture { raster, .. }) = &view.picture {
-        let beam = Beam::new(raster, x, y, Grid::new(rays::height::<T>() as u32));
+        let beam = Beam::new(raster, x, y, Grid::SIDE, Grid::new(rays::height::<T>() as u32));
         visit(token, view, &beam, None, work);
     }
     shade::shade(token, view, wants, work, tile)
@@ -41,6 +42,8 @@ pub(crate) fn cast<T: Lanes, L: Solid>(
 /// What it takes to be content with any hit of the rays of a single packet.
 #[derive(Clone, Copy)]
 struct AnyHit<T: Lanes> {
+    /// Where the ranges of the rays end, in the parameter of their lines.
+    end: T,
     /// The lanes that hold no ray.
     others: T::Mask,
     /// The latest parameter at which a ray starts. What is met later than that, none of them starts inside of.
@@ -105,7 +108,7 @@ fn visit<T: Lanes, L: Solid, M: Meets<T>>(
             form => march::cast(token, view, rays, leaves, form, which, work),
         }
         if let Some(any) = &any {
-            settled = work.met.all_met(0, any.others);
+            settled = work.met.all_nearer(0, any.end, any.others);
         }
     }
 }

@@ -40,6 +40,7 @@ pub(crate) fn cast_packet<T: Lanes, L: Solid>(
     let rays = Aimed::new(line, scale);
     let started = T::select(valid, start * scale, T::splat(token, 0.0));
     let any = any.then_some(AnyHit {
+        end: end / scale,
         others: !valid,
         latest_start: started.greatest(),
     });

@@ -114,12 +114,10 @@ impl<T: Lanes> Met<T> {
         farthest.greatest()
     }
 
-    /// Whether every ray of a packet but those in some lanes has met something.
+    /// Whether every ray of a packet has met something nearer than a limit, but for those in some lanes.
     #[inline(always)]
-    pub(crate) fn all_met(&self, packet: usize, others: T::Mask) -> bool {
-        let packet = packet % MOST_PACKETS;
-        let infinity = self.leaf[packet].splat_like(f32::INFINITY);
-        (self.leaf[packet].lt(infinity) | others).all()
+    pub(crate) fn all_nearer(&self, packet: usize, limit: T, others: T::Mask) -> bool {
+        (self.t[packet % MOST_PACKETS].lt(limit) | others).all()
     }
 }
 
