@@ -50,8 +50,7 @@ pub enum Fault {
     /// Vectors that coincide, vanish or are parallel where they must not be.
     Degenerate,
     /// A matrix without an inverse, or one that stretches by more than 2^20 or less than 2^-20, or some lengths 2^20 times
-    /// as much as others; the number found is
-    /// its determinant.
+    /// as much as others; the number found is its determinant.
     Singular,
 }
 

@@ -22,7 +22,7 @@ pub struct Transform {
     translation: Vec3,
     /// A lower bound on the factor by which the map stretches any length.
     stretch: f32,
-    /// A power of two, about half as large: times it no local vector is longer than the world's.
+    /// The power of two from half of that to it: times this no vector is longer in the frame than in the world.
     slow: f32,
 }
 

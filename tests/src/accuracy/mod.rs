@@ -5,7 +5,7 @@
 //! any can be seen again by its cell and number.
 //!
 //! What is allowed is either derived, as the page `numerics` of the library's documentation has it, or four times the
-//! largest of a million rays. `tests/accuracy-bounds.csv` holds it; `tests/accuracy.csv` records what was measured, of
+//! largest that was measured. `tests/accuracy-bounds.csv` holds it; `tests/accuracy.csv` records what was measured, of
 //! these rays and of all that were measured since.
 
 mod backward;
