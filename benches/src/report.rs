@@ -33,7 +33,7 @@ pub fn head(machine: &Machine, rules: &Rules, ceiling: f64) -> String {
 #[must_use]
 pub fn columns() -> String {
     format!(
-        "{:<5} {:>5} {:<25} {:<25} {:>9} {:>9} {:>7}  {:<19} {}",
+        "{:<7} {:>5} {:<25} {:<25} {:>9} {:>9} {:>7}  {:<19} {}",
         "scene", "size", "A", "B", "A ns/px", "B ns/px", "B/A", "interval", "wrong of B"
     )
 }
@@ -44,7 +44,7 @@ pub fn line(outcome: &Outcome) -> String {
     let Outcome { ratio, .. } = outcome;
     let interval = format!("{:.2}..{:.2} ({:.0} %)", ratio.interval.0, ratio.interval.1, 100.0 * ratio.coverage);
     let mut line = format!(
-        "{:<5} {:>5} {:<25} {:<25} {:>9.2} {:>9.2} {:>7.2}  {interval:<19}",
+        "{:<7} {:>5} {:<25} {:<25} {:>9.2} {:>9.2} {:>7.2}  {interval:<19}",
         outcome.scene,
         outcome.size,
         side(outcome.a),
