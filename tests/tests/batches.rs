@@ -130,7 +130,7 @@ fn random_programs() {
     });
     let count = count.reduce(Count::default, Count::joined);
     assert!(
-        count.hits > 5000 && count.misses > 5000 && count.none > 500 && count.inside > 500,
+        count.hits > 3000 && count.misses > 5000 && count.none > 500 && count.inside > 500,
         "{count:?}"
     );
 }
@@ -168,7 +168,7 @@ fn scenes_of_many_parts() {
                 check(&program, &asked, scene.name)
             });
             let count = counts.reduce(Count::default, Count::joined);
-            assert!(count.hits > 50 && count.misses > 50, "{}: {count:?}", scene.name);
+            assert!(count.hits > 20 && count.misses > 50, "{}: {count:?}", scene.name);
         }
     }
 }
