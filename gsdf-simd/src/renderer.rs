@@ -2,7 +2,7 @@
 
 use crate::lanes::Lanes;
 use crate::level::{Level, Work};
-use crate::scene::{Scene, View};
+use crate::scene::{Most, Scene, View};
 use crate::target::{Target, Wants};
 use crate::tile::{TILE_SIDE, Tile, Workspace, cast};
 use crate::vectorized::Vectorized;
@@ -17,7 +17,8 @@ use std::sync::{Mutex, PoisonError};
 /// Every pixel has the bits that a ray by itself finds with [`Program::along`](gsdf_nostd::Program::along), whatever was
 /// left out, at every level and on any number of threads.
 ///
-/// It keeps the memory it works in: pictures after the first allocate nothing, on no more threads than before.
+/// It keeps the memory it works in: pictures after the first allocate nothing, on no more threads than before, as long as no
+/// more parts than before have rays that start inside of them.
 pub struct Renderer<'s, 'a, L: Solid> {
     view: View<'s, 'a, L>,
     raster: Raster,
@@ -94,7 +95,9 @@ where
         let workers = rayon::current_num_threads().min(rows);
         let idle = self.idle.get_mut().unwrap_or_else(PoisonError::into_inner);
         while idle.len() < workers {
-            idle.push(L::row_renderer(self.level));
+            let mut worker = L::row_renderer(self.level);
+            worker.0.make_room(self.view.scene.most());
+            idle.push(worker);
         }
         self.render_rows(target, 0..rows)
     }
@@ -141,6 +144,9 @@ impl<L: Solid + Send + Sync + 'static> RowRenderer<L> {
 trait RenderRow<L: Solid>: Send {
     /// Renders a row of tiles.
     fn render(&mut self, view: &View<'_, '_, L>, raster: &Raster, row: usize, wants: Wants, target: &mut dyn PutTiles) -> Effort;
+
+    /// Makes room for what the parts of a scene need.
+    fn make_room(&mut self, most: Most);
 }
 
 /// Makes a [`RowRenderer`] for the lanes of a level.
@@ -166,6 +172,10 @@ struct RowOf<T: Lanes, L> {
 }
 
 impl<T: Lanes, L: Solid + Send + Sync> RenderRow<L> for RowOf<T, L> {
+    fn make_room(&mut self, most: Most) {
+        self.work.make_room(most);
+    }
+
     fn render(&mut self, view: &View<'_, '_, L>, raster: &Raster, row: usize, wants: Wants, target: &mut dyn PutTiles) -> Effort {
         let Self { token, work, tile } = self;
         let token = *token;

@@ -2,6 +2,7 @@
 
 mod beam;
 mod reach;
+mod reduce;
 mod split;
 mod tree;
 mod view;
@@ -9,6 +10,7 @@ mod visible;
 mod walk;
 
 pub(crate) use beam::{Beam, Grid};
+pub(crate) use reduce::{Known, Reduced, Waiting};
 pub(crate) use tree::Group;
 pub(crate) use tree::{FANOUT, Tree};
 pub(crate) use view::{Picture, View};
@@ -44,6 +46,16 @@ pub struct Scene<'a, L> {
     /// The trees of the parts' complements, or of their leaves.
     cuts: Vec<Tree>,
     divides_by_components: bool,
+    most: Most,
+}
+
+/// The most that one part has of something: for how much who visits parts needs room.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Most {
+    /// Complements of a product.
+    pub(crate) cuts: usize,
+    /// Leaves of a part that is marched.
+    pub(crate) marched: usize,
 }
 
 /// A leaf in a part.
@@ -111,6 +123,7 @@ impl<'a, L: Solid> Scene<'a, L> {
             divides_by_components: nodes
                 .iter()
                 .any(|node| matches!(node, Node::Leaf { solid, .. } if solid.divides_by_components())),
+            most: Most::default(),
         };
         let negative = starts.negative(nodes);
         for number in bounded.into_iter().chain(everywhere) {
@@ -170,6 +183,11 @@ impl<'a, L: Solid> Scene<'a, L> {
                 }
             }
         };
+        let leaves = self.leaves.len() - first as usize;
+        match form {
+            Form::Product { positives, .. } => self.most.cuts = self.most.cuts.max(leaves - positives as usize),
+            _ => self.most.marched = self.most.marched.max(leaves),
+        }
         self.parts.push(Part {
             leaves: first..self.leaves.len() as u32,
             form,
@@ -256,6 +274,11 @@ impl<'a, L: Solid> Scene<'a, L> {
     #[inline(always)]
     pub(crate) fn cuts(&self, number: u32) -> Option<&Tree> {
         self.cuts.get(number as usize)
+    }
+
+    /// For how much who visits the parts needs room.
+    pub(crate) fn most(&self) -> Most {
+        self.most
     }
 
     /// Whether a leaf looks at the reciprocals of a direction's components.

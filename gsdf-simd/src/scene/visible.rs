@@ -1,8 +1,8 @@
 //! The program of what can be met through a square of pixels: all that others who cast rays there need to know of a scene.
 
+use super::reduce::{Known, Reduced, Waiting};
 use super::{Beam, Form, Grid, Part, Scene, Tree, Walk};
 use crate::lanes::F32x8;
-use crate::tile::{Known, Reduced, Waiting};
 use core::ops::Range;
 use gsdf_nostd::{Node, Raster, Solid};
 

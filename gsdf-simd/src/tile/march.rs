@@ -1,15 +1,11 @@
 //! Any part of a program: what the rays of a tile can meet of it is marched.
 
 use super::leaf;
-use super::reduce::{Known, Reduced};
-use super::state::Workspace;
+use super::state::{MOST_SPANS, Workspace};
 use crate::lanes::{Lanes, MOST_LANES};
-use crate::scene::{FANOUT, Form, Meets, View};
+use crate::scene::{FANOUT, Form, Known, Meets, Reduced, View};
 use core::ops::Range;
 use gsdf_nostd::{Mask, Node, Solid, Span, attribute, march};
-
-/// How many spans are kept at once; of programs with more leaves fewer packets are marched together.
-const MOST_SPANS: usize = 8192;
 
 /// A part of the program with its leaves in these places, or the whole of it, cast at by some packets of a tile. The
 /// whole of it is for rays that start inside: it is found where they first leave or enter.

@@ -5,13 +5,11 @@ mod march;
 mod pixels;
 mod product;
 mod rays;
-mod reduce;
 mod shade;
 mod single;
 mod state;
 
 pub use pixels::{Pixel, TILE_PIXELS, TILE_SIDE, Tile};
-pub(crate) use reduce::{Known, Reduced, Waiting};
 pub(crate) use single::{Found, cast_packet};
 pub(crate) use state::Workspace;
 

@@ -2,8 +2,11 @@
 
 use super::rays::{MOST_PACKETS, Rays};
 use crate::lanes::Lanes;
-use crate::scene::Walk;
+use crate::scene::{Most, Waiting, Walk};
 use gsdf_nostd::{Mask, Node, Span};
+
+/// How many spans a march keeps at once; of programs with more leaves fewer packets are marched together.
+pub(crate) const MOST_SPANS: usize = 8192;
 
 /// How many complements of a part are looked at together.
 pub(crate) const MOST_CUTS: usize = 64;
@@ -143,7 +146,7 @@ pub(crate) struct Workspace<T: Lanes, L> {
     pub(crate) live: Vec<bool>,
     /// The operands that wait while a program is reduced: whether they are known to be inside or outside, and where
     /// their nodes and leaves start.
-    pub(crate) waiting: Vec<super::reduce::Waiting>,
+    pub(crate) waiting: Vec<Waiting>,
     /// The complements that the tile's rays may meet, with the packets they touch.
     pub(crate) cuts: Vec<(u32, u32)>,
     /// How many spans of packets were computed.
@@ -172,6 +175,21 @@ impl<T: Lanes, L> Workspace<T, L> {
             waiting: Vec::new(),
             cuts: Vec::new(),
             computed: 0,
+        }
+    }
+
+    /// Makes room for parts of so many complements, and for marches of parts of so many leaves.
+    pub(crate) fn make_room(&mut self, most: Most) {
+        let Most { cuts, marched } = most;
+        self.cuts.reserve(cuts);
+        self.nodes.reserve(2 * marched);
+        self.places.reserve(marched);
+        self.every_place.reserve(marched);
+        self.live.reserve(marched);
+        self.waiting.reserve(marched);
+        let spans = (marched * MOST_PACKETS).min(marched.max(MOST_SPANS));
+        if let (Some(empty), true) = (self.spans.first().copied(), self.spans.len() < spans) {
+            self.spans.resize(spans, empty);
         }
     }
 }
