@@ -267,6 +267,34 @@ fn scenes_of_many_parts() {
     );
 }
 
+/// A block out of which so many balls are taken, each of which opens into others: an entry is pushed from one into the next,
+/// whatever their order, and into those that were looked at before.
+fn riddled(rng: &mut Pcg64, balls: usize) -> Vec<Node> {
+    let mut nodes = vec![Node::leaf(Cuboid::new(Vec3::splat(-4.0), Vec3::splat(4.0)).unwrap().into())];
+    for _ in 0..balls {
+        let at = vec3(coarse(rng, 4), coarse(rng, 4), coarse(rng, 4));
+        let radius = rng.random_range(1..=4) as f32 * 0.4;
+        nodes.push(Node::leaf(Sphere::new(at, radius).unwrap().into()));
+        nodes.push(Node::Difference);
+    }
+    nodes
+}
+
+#[test]
+fn blocks_full_of_holes() {
+    let shown = (0..60_u64).into_par_iter().map(|seed| {
+        let mut rng = Pcg64::seed_from_u64(seed);
+        let balls = [20, 60, 150][rng.random_range(0..3)];
+        let nodes = riddled(&mut rng, balls);
+        let program = Program::new(&nodes).unwrap();
+        let eye = unit(&mut rng).as_vec3() * 12.0;
+        let raster = camera(&mut rng, eye, Vec3::ZERO, 5.0).raster(30, 20);
+        check(&program, &raster, &format!("seed {seed}"))
+    });
+    let shown = shown.reduce(Shown::default, Shown::joined);
+    assert!(shown.hits > 5_000, "{shown:?}");
+}
+
 leaf_set! {
     /// A leaf type of a user's.
     pub enum Gem { Sphere(Sphere), Cuboid(Cuboid) }
