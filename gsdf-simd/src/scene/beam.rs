@@ -1,7 +1,7 @@
 //! The rays of a rectangle of pixels, as one thing that meets boxes or does not.
 
 use super::tree::{FANOUT, Group};
-use super::walk::{Meets, Met};
+use super::walk::{Meets, Met, OF_DISTANCE};
 use crate::lanes::{LaneMask, Lanes, MOST_LANES};
 use glam::Vec3;
 use gsdf_nostd::{Mask, Projection, Raster, V3};
@@ -56,10 +56,6 @@ impl Grid {
         (columns * 0x1111_1111) & rows
     }
 }
-
-/// By how much a box is widened, as a share of how far it is and how large, for all that is rounded on the way of a ray
-/// to it and of its spans: 256 units roundoff, where the formulas of this crate promise far fewer.
-const OF_DISTANCE: f32 = 1.0 / 65_536.0;
 
 /// How far, in pixels, a ray may be off its place in the square by rounding.
 const OF_PIXEL: f32 = 1.0 / 64.0;

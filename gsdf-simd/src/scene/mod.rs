@@ -15,7 +15,7 @@ pub(crate) use tree::Group;
 pub(crate) use tree::{FANOUT, Tree};
 pub(crate) use view::{Picture, View};
 pub use visible::Visible;
-pub(crate) use walk::{Meets, Met, Walk};
+pub(crate) use walk::{Meets, Met, OF_DISTANCE, Walk};
 
 use core::ops::Range;
 use gsdf_nostd::{Node, Program, Solid};

@@ -114,8 +114,6 @@ impl Reach {
     }
 
     /// Where the solid that a range of nodes makes can be met: those of its leaves' boxes that bound it.
-    ///
-    /// `leaf` gives the box of each leaf in turn.
     pub(crate) fn of_nodes<L: Solid>(program: &Program<'_, L>, nodes: &[Node<L>]) -> Self {
         let mut stack: Vec<Self> = Vec::new();
         for node in nodes {

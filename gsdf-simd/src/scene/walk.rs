@@ -3,6 +3,10 @@
 use super::tree::{FANOUT, Group, MOST_LEVELS, Tree};
 use crate::lanes::Lanes;
 
+/// By how much a box is widened, as a share of how far it is and how large, for all that is rounded on the way of a ray
+/// to it and of its spans: 256 units roundoff, where the formulas of this crate promise far fewer.
+pub(crate) const OF_DISTANCE: f32 = 1.0 / 65_536.0;
+
 /// Rays that are taken together through a tree.
 pub(crate) trait Meets<T: Lanes> {
     /// Which of a group's boxes any of the rays may meet, and from where on; where the boxes are those of `items`, by the

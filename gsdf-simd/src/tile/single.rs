@@ -6,7 +6,7 @@ use super::state::Workspace;
 use super::{AnyHit, visit};
 use crate::lanes::{Lanes, MOST_LANES};
 use crate::packet::Packet;
-use crate::scene::{FANOUT, Group, Meets, Met, View};
+use crate::scene::{FANOUT, Group, Meets, Met, OF_DISTANCE, View};
 use gsdf_nostd::{Line, Mask, Solid, V3};
 
 /// What the rays of a packet hit.
@@ -70,9 +70,6 @@ struct Aimed<T: Lanes> {
     /// How far from the middle of the world they start.
     reach: f32,
 }
-
-/// By how much a box is widened, as a share of how far it may be from where a ray starts, and how large: as for beams.
-const OF_DISTANCE: f32 = 1.0 / 65_536.0;
 
 impl<T: Lanes> Aimed<T> {
     #[inline(always)]
