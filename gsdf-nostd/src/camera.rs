@@ -186,15 +186,20 @@ impl Raster {
     /// lane.
     #[inline(always)]
     pub fn line<T: Real>(&self, x: T, y: T) -> (V3<T>, V3<T>) {
-        self.line_to(self.across(x), self.upward(y))
+        self.line_from(self.column(x), self.upward(y))
     }
 
-    /// How far column `x` is from the middle of the picture: what all its rays have in common.
+    /// Origin and direction of the ray through the middle of column `x`: what all its rays have in common.
     #[inline(always)]
     #[allow(clippy::cast_precision_loss, reason = "pictures are narrower than 2^24 pixels")]
-    pub fn across<T: Real>(&self, x: T) -> V3<T> {
+    pub fn column<T: Real>(&self, x: T) -> (V3<T>, V3<T>) {
+        let (eye, forward) = (V3::splat(x, self.camera.eye), V3::splat(x, self.camera.forward));
         let pixel = x.splat_like(self.pixel());
-        V3::splat(x, self.camera.right).scaled((x - x.splat_like(0.5 * self.width as f32)) * pixel)
+        let across = V3::splat(x, self.camera.right).scaled((x - x.splat_like(0.5 * self.width as f32)) * pixel);
+        match self.camera.projection {
+            Projection::Pinhole => (eye, forward + across),
+            Projection::Orthographic => (eye + across, forward),
+        }
     }
 
     /// How far row `y` is from the middle of the picture.
@@ -205,13 +210,12 @@ impl Raster {
         V3::splat(y, self.camera.up).scaled((y.splat_like(0.5 * self.height as f32) - y) * pixel)
     }
 
-    /// Origin and direction of the ray through the place that is so far from the middle of the picture.
+    /// Origin and direction of the ray that is so far above the middle of a [`column`](Self::column).
     #[inline(always)]
-    pub fn line_to<T: Real>(&self, across: V3<T>, upward: V3<T>) -> (V3<T>, V3<T>) {
-        let (eye, forward) = (V3::splat(across.x, self.camera.eye), V3::splat(across.x, self.camera.forward));
+    pub fn line_from<T: Real>(&self, (origin, direction): (V3<T>, V3<T>), upward: V3<T>) -> (V3<T>, V3<T>) {
         match self.camera.projection {
-            Projection::Pinhole => (eye, forward + across + upward),
-            Projection::Orthographic => (eye + across + upward, forward),
+            Projection::Pinhole => (origin, direction + upward),
+            Projection::Orthographic => (origin + upward, direction),
         }
     }
 }

@@ -86,13 +86,14 @@
 //! assert_eq!(heights, [2.0; 21]);
 //! ```
 #![cfg_attr(not(feature = "std"), no_std)]
-#![forbid(unsafe_code)]
 
 #[cfg(feature = "std")]
 mod batch;
 mod lanes;
 mod level;
 mod packet;
+#[cfg(feature = "std")]
+mod prefetch;
 #[cfg(feature = "std")]
 mod renderer;
 #[cfg(feature = "std")]

@@ -111,14 +111,14 @@ impl<T: Lanes> Packet<T> {
         // comparisons of masks.
         let origin = V3::select(valid, origin, V3::splat(start, Vec3::ZERO));
         let direction = V3::select(valid, direction, V3::splat(start, Vec3::X));
-        let (direction, scale, _) = scaled(direction);
+        let (direction, scale, length) = scaled(direction);
         Self {
             line: Line {
                 origin,
                 toward: Toward::new(direction),
             },
             scale,
-            start: T::select(valid, start.max(start.splat_like(f32::MIN_POSITIVE)) / scale, infinity),
+            start: T::select(valid, (start / scale).max(earliest_on_line(length)), infinity),
             end: T::select(valid, end, -infinity),
             valid,
         }
@@ -232,6 +232,13 @@ pub(crate) fn scaled<T: Lanes>(direction: V3<T>) -> (V3<T>, T, T) {
     let length = largest(direction).power_of_two_below();
     let scale = length.per_power_of_two_below();
     (direction.scaled(scale), scale, length)
+}
+
+/// The least parameter on the line of a direction of this length at which a crossing counts, as
+/// [`Ray::start_on_line`] has it.
+#[inline(always)]
+pub(crate) fn earliest_on_line<T: Lanes>(length: T) -> T {
+    length.splat_like(f32::MIN_POSITIVE) * length.max(length.splat_like(1.0))
 }
 
 /// Whether every coordinate is within ±`limit`.

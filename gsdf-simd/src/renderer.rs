@@ -204,8 +204,12 @@ fn render_row<T: Lanes, L: Solid>(
     let side = TILE_SIDE as u32;
     let mut effort = Effort::default();
     work.computed = 0;
+    work.rays.look(token, view);
     let mut x = 0;
     while x < width {
+        if let Some(next) = target.place(x + side) {
+            next.prefetch(wants);
+        }
         let (place, is_own) = match target.place(x) {
             Some(place) => (place, false),
             None => (&mut *own, true),

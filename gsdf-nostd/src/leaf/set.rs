@@ -107,10 +107,9 @@ macro_rules! leaf_set {
                 fn spans<T: Real>(
                     &self,
                     seen: Option<&Seen<T::Scalar>>,
-                    lines: &[Line<T>],
+                    lines: &[Line<T>; u32::BITS as usize],
                     which: u32,
-                    spans: &mut [Span<T>],
-                    step: usize,
+                    each: impl FnMut(usize, Span<T>),
                 ) {
                     match self {
                         $(Self::$variant(solid) => {
@@ -118,7 +117,7 @@ macro_rules! leaf_set {
                                 Some(Seen::$variant(seen)) => Some(seen),
                                 _ => None,
                             };
-                            solid.spans(seen, lines, which, spans, step);
+                            solid.spans(seen, lines, which, each);
                         })+
                     }
                 }

@@ -85,23 +85,25 @@ pub trait Solid: Copy {
         self.surface(&self.seen_from(line.origin), &line.toward, t)
     }
 
-    /// The spans along many lines: those of `lines` whose bits are set in `which`, in ascending order, into every
-    /// `step`-th place of `spans`. What is beyond the end of a slice is left out. Where all lines start at one origin,
-    /// `seen` is the solid as seen from there.
+    /// The spans along many lines, given one by one to `each` with the number of the line: those of `lines` whose bits are
+    /// set in `which`, in ascending order. Where all lines start at one origin, `seen` is the solid as seen from there.
     ///
     /// A choice of solids chooses once for all lines.
     #[inline(always)]
-    fn spans<T: Real>(&self, seen: Option<&Self::Seen<T::Scalar>>, lines: &[Line<T>], which: u32, spans: &mut [Span<T>], step: usize) {
+    fn spans<T: Real>(
+        &self,
+        seen: Option<&Self::Seen<T::Scalar>>,
+        lines: &[Line<T>; u32::BITS as usize],
+        which: u32,
+        mut each: impl FnMut(usize, Span<T>),
+    ) {
         let mut bits = which;
-        let mut place = 0;
         while bits != 0 {
-            let line = bits.trailing_zeros() as usize;
+            let number = bits.trailing_zeros() as usize % lines.len();
             bits &= bits - 1;
-            if let (Some(line), Some(span)) = (lines.get(line), spans.get_mut(place)) {
-                let seen = self.seen_or(seen, line);
-                *span = self.span(&seen, &line.toward);
-            }
-            place += step;
+            let line = &lines[number];
+            let seen = self.seen_or(seen, line);
+            each(number, self.span(&seen, &line.toward));
         }
     }
 

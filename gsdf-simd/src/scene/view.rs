@@ -56,6 +56,12 @@ impl<'s, 'a, L: Solid> View<'s, 'a, L> {
         }
     }
 
+    /// Where all rays start, if they do so in one place.
+    #[inline(always)]
+    pub(crate) fn eye(&self) -> Option<Vec3> {
+        self.eye
+    }
+
     /// The leaf in a place of the scene as it was seen from the eye for the whole picture, if it was.
     #[inline(always)]
     pub(crate) fn seen_before(&self, place: u32) -> Option<&L::Seen<f32>> {

@@ -1,12 +1,22 @@
 //! One leaf along the packets of a tile: the only places where the formulas of the solids stand, each in a function of its
 //! own.
 
-use super::rays::Rays;
+use super::rays::{MOST_PACKETS, Rays};
+use super::state::Met;
 use crate::lanes::Lanes;
 use crate::scene::View;
 use gsdf_nostd::{Solid, Span, Surface, V3};
 
-/// The spans of the leaf in a place of the scene along some packets, in ascending order, into every `step`-th of `spans`.
+/// What becomes of the spans of a leaf.
+#[derive(Debug)]
+pub(crate) enum Use<'u, T: Lanes> {
+    /// The leaf is a part of the program: where it is entered the program is. Its number.
+    Enter(&'u mut Met<T>, T),
+    /// They are kept in every so many-th place.
+    Keep(&'u mut [Span<T>], usize),
+}
+
+/// The spans of the leaf in a place of the scene along some packets, in ascending order.
 #[inline(always)]
 pub(crate) fn spans<T: Lanes, L: Solid>(
     token: T::Token,
@@ -14,11 +24,16 @@ pub(crate) fn spans<T: Lanes, L: Solid>(
     place: u32,
     which: u32,
     rays: &mut Rays<T>,
-    spans: &mut [Span<T>],
-    step: usize,
+    mut used: Use<'_, T>,
 ) {
     let Some((solid, frame)) = view.scene.leaf(place) else { return };
-    let lines = rays.lines_in(frame, view.scene.program(), which);
+    let pose = view.scene.program().pose(frame);
+    if let Some(pose) = pose {
+        rays.pose(frame, pose, which);
+    }
+    let (local, scales) = rays.local();
+    let lines = if pose.is_some() { local } else { rays.lines() };
+    let starts = rays.starts();
     let now;
     let seen = match view.seen_before(place) {
         None => {
@@ -27,29 +42,36 @@ pub(crate) fn spans<T: Lanes, L: Solid>(
         }
         before => before,
     };
+    let is_posed = pose.is_some();
+    let mut rank = 0;
     T::vectorize(
         token,
         #[inline(always)]
-        || solid.spans(seen, lines, which, spans, step),
+        || {
+            solid.spans(
+                seen,
+                lines,
+                which,
+                #[inline(always)]
+                |packet: usize, own: Span<T>| {
+                    let mut span = own;
+                    if is_posed {
+                        let scale = scales[packet % MOST_PACKETS];
+                        (span.enter, span.exit) = (own.enter * scale, own.exit * scale);
+                    }
+                    match &mut used {
+                        Use::Enter(met, number) => met.enter_span(packet, span, *number, starts[packet % MOST_PACKETS]),
+                        Use::Keep(spans, step) => {
+                            if let Some(place) = spans.get_mut(rank) {
+                                *place = span;
+                            }
+                            rank += *step;
+                        }
+                    }
+                },
+            );
+        },
     );
-    if view.scene.program().pose(frame).is_some() {
-        to_world(rays, which, spans, step);
-    }
-}
-
-/// Takes spans in a frame to the parameters of the world.
-#[inline(always)]
-fn to_world<T: Lanes>(rays: &Rays<T>, which: u32, spans: &mut [Span<T>], step: usize) {
-    let mut bits = which;
-    let mut place = 0;
-    while bits != 0 {
-        let scale = rays.local_scale(bits.trailing_zeros() as usize);
-        bits &= bits - 1;
-        if let Some(span) = spans.get_mut(place) {
-            (span.enter, span.exit) = (span.enter * scale, span.exit * scale);
-        }
-        place += step;
-    }
 }
 
 /// The surface of the leaf of a number where the rays of a packet cross it, with its normals outward from the program.
@@ -73,9 +95,14 @@ pub(crate) fn surface<'v, T: Lanes, L: Solid>(
         };
     };
     let pose = view.scene.program().pose(asked.frame);
-    rays.lines_in(asked.frame, view.scene.program(), 1 << packet);
-    let t = if pose.is_some() { t / rays.local_scale(packet) } else { t };
-    let line = rays.line_in(asked.frame, view.scene.program(), packet);
+    if let Some(pose) = pose {
+        rays.pose(asked.frame, pose, 1 << packet);
+    }
+    let packet = packet % MOST_PACKETS;
+    let (line, t) = match pose {
+        Some(_) => (&rays.local().0[packet], t / rays.local().1[packet]),
+        None => (&rays.lines()[packet], t),
+    };
     let seen = asked.seen_before.or(asked.seen_now.as_ref());
     let own = T::vectorize(
         token,

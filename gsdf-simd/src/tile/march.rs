@@ -1,6 +1,6 @@
 //! Any part of a program: what the rays of a tile can meet of it is marched.
 
-use super::leaf;
+use super::leaf::{self, Use};
 use super::state::{MOST_SPANS, Workspace};
 use crate::lanes::{Lanes, MOST_LANES};
 use crate::scene::{FANOUT, Form, Known, Meets, Reduced, View};
@@ -119,8 +119,7 @@ fn march_reduced<T: Lanes, L: Solid>(
                 work.places[number],
                 some,
                 &mut work.rays,
-                &mut work.spans[number..],
-                leaves,
+                Use::Keep(&mut work.spans[number..], leaves),
             );
         }
         work.computed += (count * leaves) as u64;

@@ -1,5 +1,8 @@
 //! What the rays of a tile have met.
 
+use crate::prefetch;
+use crate::target::Wants;
+
 /// The side of a tile, in pixels.
 pub const TILE_SIDE: usize = 16;
 
@@ -45,6 +48,19 @@ impl Tile {
             distance: self.distance[index],
             normal: [self.normal[0][index], self.normal[1][index], self.normal[2][index]],
             leaf: self.leaf[index],
+        }
+    }
+
+    /// Says that the planes in which something is wanted are written next.
+    #[inline(always)]
+    pub(crate) fn prefetch(&mut self, wants: Wants) {
+        prefetch::for_writing(&mut self.distance);
+        prefetch::for_writing(&mut self.leaf);
+        if wants.normals | wants.faces {
+            prefetch::for_writing(&mut self.normal);
+        }
+        if wants.faces {
+            prefetch::for_writing(&mut self.face);
         }
     }
 

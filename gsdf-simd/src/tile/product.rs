@@ -1,7 +1,7 @@
 //! A product seen from outside: it is entered at the last of the entries of what must be inside, or where the last of the
 //! complements in the way ends.
 
-use super::leaf;
+use super::leaf::{self, Use};
 use super::rays::MOST_PACKETS;
 use super::state::{MOST_CUTS, Workspace};
 use crate::lanes::Lanes;
@@ -29,7 +29,7 @@ fn intersect<T: Lanes, L: Solid>(token: T::Token, view: &View<'_, '_, L>, places
         let number = T::splat(token, view.scene.number(place) as f32);
         let is_first = place == places.start;
         let own = if is_first { 0 } else { MOST_PACKETS };
-        leaf::spans(token, view, place, which, &mut work.rays, &mut work.spans[own..], 1);
+        leaf::spans(token, view, place, which, &mut work.rays, Use::Keep(&mut work.spans[own..], 1));
         work.computed += count as u64;
         for packet in 0..count {
             if is_first {
@@ -59,6 +59,12 @@ pub(crate) fn cast<T: Lanes, L: Solid, M: Meets<T>>(
     work: &mut Workspace<T, L>,
 ) {
     let first_cut = part.start + positives;
+    if let (1, None) = (positives, cuts) {
+        let number = T::splat(token, view.scene.number(part.start) as f32);
+        leaf::spans(token, view, part.start, which, &mut work.rays, Use::Enter(&mut work.met, number));
+        work.computed += u64::from(which.count_ones());
+        return;
+    }
     intersect(token, view, part.start..first_cut, which, work);
 
     if let Some(cuts) = cuts {
@@ -91,13 +97,7 @@ pub(crate) fn cast<T: Lanes, L: Solid, M: Meets<T>>(
         let (span, leaf) = (work.spans[place], work.leaves[place % MOST_PACKETS]);
         place += 1;
         let (_, _, start) = work.rays.packet(packet);
-        let entered = span.enter.lt(span.exit);
-        let ahead = start.lt(span.enter);
-        if (entered & !ahead & start.lt(span.exit)).any() {
-            work.met.inside |= 1 << packet;
-        }
-        let t = T::select(entered & ahead, span.enter, start.splat_like(f32::INFINITY));
-        work.met.enter(packet, t, leaf);
+        work.met.enter_span(packet, span, leaf, start);
     }
 }
 
@@ -167,7 +167,7 @@ fn push<T: Lanes, L: Solid>(
         if touched == 0 {
             continue;
         }
-        leaf::spans(token, view, place, touched, &mut work.rays, &mut work.spans[end..], 1);
+        leaf::spans(token, view, place, touched, &mut work.rays, Use::Keep(&mut work.spans[end..], 1));
         end += touched.count_ones() as usize;
         let mut bits = touched;
         while bits != 0 {

@@ -1,10 +1,10 @@
 //! The rays of a tile, in packets of four by two or four by four.
 
-use super::pixels::{BLOCK_SIDE, TILE_SIDE};
+use super::pixels::{BLOCK_SIDE, TILE_PIXELS, TILE_SIDE, Tile};
 use crate::lanes::Lanes;
-use crate::packet::{Packet, scaled};
+use crate::packet::{Packet, earliest_on_line, scaled};
 use crate::scene::{Picture, View};
-use gsdf_nostd::{Line, LocalLine, Program, Raster, Solid, Toward, V3};
+use gsdf_nostd::{Line, LocalLine, Raster, Solid, Toward, Transform, V3};
 
 /// The most packets that a tile is made of: those of eight rays.
 pub(crate) const MOST_PACKETS: usize = 32;
@@ -27,12 +27,26 @@ pub(crate) const fn height<T: Lanes>() -> usize {
     T::LANES / BLOCK_SIDE
 }
 
+/// Where in the planes of a tile the pixels of packets of eight start, and where those of packets of sixteen do.
+const STARTS: [[u8; MOST_PACKETS]; 2] = [starts(2), starts(4)];
+
+/// Where in the planes of a tile the pixels of packets with so many rows start.
+const fn starts(height: usize) -> [u8; MOST_PACKETS] {
+    let mut starts = [0; MOST_PACKETS];
+    let mut packet = 0;
+    while packet < TILE_SIDE / height * COLUMNS {
+        starts[packet] = Tile::index(packet % COLUMNS * BLOCK_SIDE, packet / COLUMNS * height) as u8;
+        packet += 1;
+    }
+    starts
+}
+
 /// Where in the planes of a tile a packet's pixels start.
 #[inline(always)]
 pub(crate) fn start_of<T: Lanes>(packet: usize) -> usize {
-    let (column, row) = (packet % COLUMNS, packet / COLUMNS);
-    let top = row * height::<T>();
-    (top / BLOCK_SIDE * COLUMNS + column) * BLOCK_SIDE * BLOCK_SIDE + top % BLOCK_SIDE * BLOCK_SIDE
+    let starts = &STARTS[usize::from(height::<T>() == BLOCK_SIDE)];
+    // What this leaves as it is tells the compiler that all pixels are within the planes.
+    usize::from(starts[packet % MOST_PACKETS]) & (TILE_PIXELS - T::LANES)
 }
 
 /// The rays of a tile, aimed where they are needed.
@@ -49,8 +63,9 @@ pub(crate) struct Rays<T: Lanes> {
     aimed: u32,
     /// The left upper pixel of the tile.
     corner: [u32; 2],
-    /// How far the columns and the rows of packets are from the middle of the picture, once one is aimed.
-    across: [V3<T>; COLUMNS],
+    /// Origins and directions through the middles of the columns of packets, and how far the rows are above them, once one
+    /// is aimed.
+    columns: [(V3<T>, V3<T>); COLUMNS],
     upward: [V3<T>; MOST_PACKETS / COLUMNS],
     /// The lines in another frame, as far as `posed` says.
     local: [Line<T>; MOST_PACKETS],
@@ -80,12 +95,23 @@ impl<T: Lanes> Rays<T> {
             present: 0,
             aimed: 0,
             corner: [0, 0],
-            across: [ones; COLUMNS],
+            columns: [(ones, ones); COLUMNS],
             upward: [ones; MOST_PACKETS / COLUMNS],
             local: [line; MOST_PACKETS],
             local_scales: [one; MOST_PACKETS],
             frame: 0,
             posed: 0,
+        }
+    }
+
+    /// Looks at the scene from where a view does.
+    #[inline(always)]
+    pub(crate) fn look<L: Solid>(&mut self, token: T::Token, view: &View<'_, '_, L>) {
+        if let Some(eye) = view.eye() {
+            let origin = V3::splat(T::splat(token, 0.0), eye);
+            for line in &mut self.lines {
+                line.origin = origin;
+            }
         }
     }
 
@@ -124,22 +150,23 @@ impl<T: Lanes> Rays<T> {
             self.aim_checked(token, raster, missing);
             return;
         }
-        // No ray starts nearer than the least normal number: see `Ray::start_on_line`.
-        let earliest = T::splat(token, f32::MIN_POSITIVE);
         let components = view.scene.divides_by_components();
+        let looked = view.eye().is_some();
         while missing != 0 {
             let packet = missing.trailing_zeros() as usize % MOST_PACKETS;
             missing &= missing - 1;
-            let (origin, direction) = raster.line_to(self.across[packet % COLUMNS], self.upward[packet / COLUMNS]);
+            let (origin, direction) = raster.line_from(self.columns[packet % COLUMNS], self.upward[packet / COLUMNS]);
             let (direction, scale, length) = scaled(direction);
             let line = &mut self.lines[packet];
-            line.origin = origin;
+            if !looked {
+                line.origin = origin;
+            }
             line.toward = if components {
                 Toward::new(direction)
             } else {
                 Toward::without_components(direction)
             };
-            (self.scales[packet], self.starts[packet]) = (scale, earliest * length);
+            (self.scales[packet], self.starts[packet]) = (scale, earliest_on_line(length));
         }
     }
 
@@ -147,8 +174,8 @@ impl<T: Lanes> Rays<T> {
     fn aim_columns_and_rows(&mut self, token: T::Token, raster: &Raster) {
         let [x, y] = self.corner;
         let centers = T::load(token, &COLUMN_CENTERS);
-        for (number, across) in self.across.iter_mut().enumerate() {
-            *across = raster.across(centers + T::splat(token, x as f32 + (number * BLOCK_SIDE) as f32));
+        for (number, column) in self.columns.iter_mut().enumerate() {
+            *column = raster.column(centers + T::splat(token, x as f32 + (number * BLOCK_SIDE) as f32));
         }
         let centers = T::load(token, &ROW_CENTERS);
         for (number, upward) in self.upward.iter_mut().enumerate().take(packets::<T>() / COLUMNS) {
@@ -164,46 +191,46 @@ impl<T: Lanes> Rays<T> {
         while bits != 0 {
             let packet = bits.trailing_zeros() as usize % MOST_PACKETS;
             bits &= bits - 1;
-            let (origin, direction) = raster.line_to(self.across[packet % COLUMNS], self.upward[packet / COLUMNS]);
+            let (origin, direction) = raster.line_from(self.columns[packet % COLUMNS], self.upward[packet / COLUMNS]);
             (self.lines[packet], self.scales[packet], self.starts[packet]) =
                 Packet::from_lanes(origin, direction, zero, infinity).into_parts();
         }
     }
 
-    /// The lines of all packets, in a frame; those of `which` are asked for.
+    /// Takes the lines of some packets to a frame.
     #[inline(always)]
-    pub(crate) fn lines_in<L>(&mut self, frame: u16, program: &Program<'_, L>, which: u32) -> &[Line<T>; MOST_PACKETS] {
-        let Some(pose) = program.pose(frame) else {
-            return &self.lines;
-        };
+    pub(crate) fn pose(&mut self, frame: u16, pose: &Transform, which: u32) {
         if self.frame != frame {
             self.frame = frame;
             self.posed = 0;
         }
         let mut missing = which & !self.posed;
         while missing != 0 {
-            let packet = missing.trailing_zeros() as usize;
+            let packet = missing.trailing_zeros() as usize % MOST_PACKETS;
             missing &= missing - 1;
-            let packet = packet % MOST_PACKETS;
             let LocalLine { line, scale } = pose.line_to_local(&self.lines[packet]);
             (self.local[packet], self.local_scales[packet]) = (line, scale);
         }
         self.posed |= which;
-        &self.local
     }
 
-    /// The line of one packet in a frame.
+    /// The lines of all packets in the world.
     #[inline(always)]
-    pub(crate) fn line_in<L>(&mut self, frame: u16, program: &Program<'_, L>, packet: usize) -> &Line<T> {
-        let packet = packet % MOST_PACKETS;
-        &self.lines_in(frame, program, 1 << packet)[packet]
+    pub(crate) fn lines(&self) -> &[Line<T>; MOST_PACKETS] {
+        &self.lines
     }
 
-    /// By what a parameter of a packet's line in the frame that was asked for last is to be multiplied to be one in the
-    /// world.
+    /// The lines of the packets that were [posed](Self::pose) last, and by what a parameter on each is to be multiplied to be
+    /// one in the world.
     #[inline(always)]
-    pub(crate) fn local_scale(&self, packet: usize) -> T {
-        self.local_scales[packet % MOST_PACKETS]
+    pub(crate) fn local(&self) -> (&[Line<T>; MOST_PACKETS], &[T; MOST_PACKETS]) {
+        (&self.local, &self.local_scales)
+    }
+
+    /// Where the rays of each packet start.
+    #[inline(always)]
+    pub(crate) fn starts(&self) -> &[T; MOST_PACKETS] {
+        &self.starts
     }
 
     /// The line of a packet in the world, by what it is scaled, and where it starts.

@@ -75,10 +75,10 @@ pub(crate) fn surface<'v, T: Lanes, L: Solid>(
     let mut waiting = hit.to_bits();
     while waiting != 0 {
         let number = numbers[waiting.trailing_zeros() as usize % T::LANES];
-        let here = leaf.eq(T::splat(token, number as f32));
+        let here = leaf.eq(T::splat(token, number as f32)) & hit;
         waiting &= !here.to_bits();
         let own = leaf::surface(token, view, asked, number, packet, &mut work.rays, t);
-        met = own.or_else(here & hit, met);
+        met = own.or_else(here, met);
     }
     met
 }

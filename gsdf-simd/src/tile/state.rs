@@ -60,6 +60,20 @@ impl<T: Lanes> Met<T> {
         }
     }
 
+    /// The rays of a packet are inside of another part, a leaf of this number, along a span.
+    #[inline(always)]
+    pub(crate) fn enter_span(&mut self, packet: usize, span: Span<T>, number: T, start: T) {
+        let ahead = start.lt(span.enter);
+        let entered = span.enter.lt(span.exit);
+        if (entered & !ahead & start.lt(span.exit)).any() {
+            self.inside |= 1 << packet;
+        }
+        let entered = entered & ahead;
+        if entered.any() {
+            self.enter(packet, T::select(entered, span.enter, start.splat_like(f32::INFINITY)), number);
+        }
+    }
+
     /// Where the rays of a packet enter another part, or do not, at +inf; and the leaf there. Of two at the same place
     /// the one with the lower number counts.
     #[inline(always)]
