@@ -1,6 +1,7 @@
 //! One leaf along the packets of a tile: the only places where the formulas of the solids stand, each in a function of its
 //! own.
 
+use super::product::Product;
 use super::rays::{MOST_PACKETS, Rays};
 use super::state::Met;
 use crate::lanes::Lanes;
@@ -12,6 +13,20 @@ use gsdf_nostd::{Solid, Span, Surface, V3};
 pub(crate) enum Use<'u, T: Lanes> {
     /// The leaf is a part of the program: where it is entered the program is. Its number.
     Enter(&'u mut Met<T>, T),
+    /// It begins a product. Its number.
+    Begin(&'u mut Product<T>, T),
+    /// It is another solid of a product. Its number.
+    Intersect(&'u mut Product<T>, T),
+    /// It is what a product is the complement of.
+    Cut {
+        product: &'u mut Product<T>,
+        /// Its number.
+        number: T,
+        /// The packets of which a ray enters the product later for it.
+        moved: &'u mut u32,
+        /// Where its spans are kept, one after the other.
+        spans: &'u mut [Span<T>],
+    },
     /// They are kept in every so many-th place.
     Keep(&'u mut [Span<T>], usize),
 }
@@ -61,6 +76,21 @@ pub(crate) fn spans<T: Lanes, L: Solid>(
                     }
                     match &mut used {
                         Use::Enter(met, number) => met.enter_span(packet, span, *number, starts[packet % MOST_PACKETS]),
+                        Use::Begin(product, number) => product.begin(packet, span, *number),
+                        Use::Intersect(product, number) => product.intersect(packet, span, *number),
+                        Use::Cut {
+                            product,
+                            number,
+                            moved,
+                            spans,
+                        } => {
+                            **moved |= u32::from(product.cut(packet, span, *number)) << packet;
+                            product.settle_tie(packet, span, *number);
+                            if let Some(place) = spans.get_mut(rank) {
+                                *place = span;
+                            }
+                            rank += 1;
+                        }
                         Use::Keep(spans, step) => {
                             if let Some(place) = spans.get_mut(rank) {
                                 *place = span;

@@ -9,38 +9,58 @@ use crate::scene::{FANOUT, Meets, Tree, View};
 use core::ops::Range;
 use gsdf_nostd::{Mask, Solid, Span};
 
-/// The intersection of the solids in some places, along some packets, one after the other at the start of `work.spans`; and
-/// the numbers of the leaves at its entries.
-#[inline(always)]
-fn intersect<T: Lanes, L: Solid>(token: T::Token, view: &View<'_, '_, L>, places: Range<u32>, which: u32, work: &mut Workspace<T, L>) {
-    let count = which.count_ones() as usize;
-    let infinity = T::splat(token, f32::INFINITY);
-    if places.is_empty() {
-        for place in 0..count {
-            work.spans[place] = Span {
-                enter: -infinity,
-                exit: infinity,
-            };
-            work.leaves[place % MOST_PACKETS] = infinity;
+/// Where the rays of a tile enter and leave a product, as far as it was looked at.
+#[derive(Debug)]
+pub(crate) struct Product<T: Lanes> {
+    spans: [Span<T>; MOST_PACKETS],
+    /// The numbers of the leaves at the entries.
+    leaves: [T; MOST_PACKETS],
+}
+
+impl<T: Lanes> Product<T> {
+    #[inline(always)]
+    pub(crate) fn new(token: T::Token) -> Self {
+        let infinity = T::splat(token, f32::INFINITY);
+        Self {
+            spans: [Span::empty_like(infinity); MOST_PACKETS],
+            leaves: [infinity; MOST_PACKETS],
         }
-        return;
     }
-    for place in places.clone() {
-        let number = T::splat(token, view.scene.number(place) as f32);
-        let is_first = place == places.start;
-        let own = if is_first { 0 } else { MOST_PACKETS };
-        leaf::spans(token, view, place, which, &mut work.rays, Use::Keep(&mut work.spans[own..], 1));
-        work.computed += count as u64;
-        for packet in 0..count {
-            if is_first {
-                work.leaves[packet % MOST_PACKETS] = number;
-                continue;
-            }
-            let (all, one, leaf) = (work.spans[packet], work.spans[own + packet], work.leaves[packet % MOST_PACKETS]);
-            let lower = T::select(one.enter.eq(all.enter), number.min(leaf), leaf);
-            work.leaves[packet % MOST_PACKETS] = T::select(all.enter.lt(one.enter), number, lower);
-            work.spans[packet] = all.intersection(one);
+
+    /// The first solid of the product, or none yet.
+    #[inline(always)]
+    pub(crate) fn begin(&mut self, packet: usize, own: Span<T>, number: T) {
+        (self.spans[packet % MOST_PACKETS], self.leaves[packet % MOST_PACKETS]) = (own, number);
+    }
+
+    /// Another solid: what is in both is left. Of two entries at the same place that with the lower number counts.
+    #[inline(always)]
+    pub(crate) fn intersect(&mut self, packet: usize, own: Span<T>, number: T) {
+        let (all, leaf) = (self.spans[packet % MOST_PACKETS], self.leaves[packet % MOST_PACKETS]);
+        let lower = T::select(own.enter.eq(all.enter), number.min(leaf), leaf);
+        self.leaves[packet % MOST_PACKETS] = T::select(all.enter.lt(own.enter), number, lower);
+        self.spans[packet % MOST_PACKETS] = all.intersection(own);
+    }
+
+    /// The complement of a solid: who would enter within it enters where it ends. Says whether anyone does.
+    #[inline(always)]
+    pub(crate) fn cut(&mut self, packet: usize, own: Span<T>, number: T) -> bool {
+        let Span { enter, exit } = self.spans[packet % MOST_PACKETS];
+        let within = own.contains_after(enter) & enter.lt(exit);
+        let moves = within.any();
+        if moves {
+            self.spans[packet % MOST_PACKETS].enter = T::select(within, own.exit, enter);
+            self.leaves[packet % MOST_PACKETS] = T::select(within, number, self.leaves[packet % MOST_PACKETS]);
         }
+        moves
+    }
+
+    /// Of all complements that end where the product is entered the lowest number counts.
+    #[inline(always)]
+    pub(crate) fn settle_tie(&mut self, packet: usize, own: Span<T>, number: T) {
+        let leaf = self.leaves[packet % MOST_PACKETS];
+        let tie = own.exit.eq(self.spans[packet % MOST_PACKETS].enter) & number.lt(leaf);
+        self.leaves[packet % MOST_PACKETS] = T::select(tie, number, leaf);
     }
 }
 
@@ -59,67 +79,78 @@ pub(crate) fn cast<T: Lanes, L: Solid, M: Meets<T>>(
     work: &mut Workspace<T, L>,
 ) {
     let first_cut = part.start + positives;
-    if let (1, None) = (positives, cuts) {
-        let number = T::splat(token, view.scene.number(part.start) as f32);
-        leaf::spans(token, view, part.start, which, &mut work.rays, Use::Enter(&mut work.met, number));
+    if positives == 0 {
+        let infinity = T::splat(token, f32::INFINITY);
+        let everywhere = Span {
+            enter: -infinity,
+            exit: infinity,
+        };
+        for packet in 0..MOST_PACKETS {
+            work.product.begin(packet, everywhere, infinity);
+        }
+    }
+    for place in part.start..first_cut {
+        let number = T::splat(token, view.scene.number(place) as f32);
+        let used = match (place == part.start, positives, cuts) {
+            (true, 1, None) => Use::Enter(&mut work.met, number),
+            (true, ..) => Use::Begin(&mut work.product, number),
+            (false, ..) => Use::Intersect(&mut work.product, number),
+        };
+        leaf::spans(token, view, place, which, &mut work.rays, used);
         work.computed += u64::from(which.count_ones());
+    }
+    if let (1, None) = (positives, cuts) {
         return;
     }
-    intersect(token, view, part.start..first_cut, which, work);
 
+    let mut entering = which;
     if let Some(cuts) = cuts {
-        let alive = begin(which, work);
-        if alive == 0 {
+        entering = approach(which, work);
+        if entering == 0 {
             return;
         }
-        gather(token, cuts, rays, first_cut, alive, work);
+        gather(token, cuts, rays, first_cut, entering, work);
         loop {
-            let mut moved = false;
+            let mut moved = 0;
             let mut from = 0;
             while from < work.cuts.len() {
                 let to = (from + MOST_CUTS).min(work.cuts.len());
-                moved |= push(token, view, from..to, which, alive, work);
+                moved |= push(token, view, from..to, work);
                 from = to;
             }
             // What was moved by some may have come into others that were looked at before; up to 64 see to that
             // themselves.
-            if !moved || work.cuts.len() <= MOST_CUTS {
+            if moved == 0 || work.cuts.len() <= MOST_CUTS {
                 break;
             }
         }
     }
 
-    let mut bits = which;
-    let mut place = 0;
-    while bits != 0 {
-        let packet = bits.trailing_zeros() as usize;
-        bits &= bits - 1;
-        let (span, leaf) = (work.spans[place], work.leaves[place % MOST_PACKETS]);
-        place += 1;
+    while entering != 0 {
+        let packet = entering.trailing_zeros() as usize % MOST_PACKETS;
+        entering &= entering - 1;
         let (_, _, start) = work.rays.packet(packet);
-        work.met.enter_span(packet, span, leaf, start);
+        work.met
+            .enter_span(packet, work.product.spans[packet], work.product.leaves[packet], start);
     }
 }
 
 /// Moves the entries of some packets to where their rays start, if that is later, and says which packets have a ray that is
 /// then inside of all solids and not yet nearer elsewhere.
 #[inline(always)]
-fn begin<T: Lanes, L>(which: u32, work: &mut Workspace<T, L>) -> u32 {
+fn approach<T: Lanes, L>(which: u32, work: &mut Workspace<T, L>) -> u32 {
     let mut alive = 0;
     let mut bits = which;
-    let mut place = 0;
     while bits != 0 {
-        let packet = bits.trailing_zeros() as usize;
+        let packet = bits.trailing_zeros() as usize % MOST_PACKETS;
         bits &= bits - 1;
-        let span = work.spans[place];
+        let span = &mut work.product.spans[packet];
         let (_, _, start) = work.rays.packet(packet);
         let nearest = work.met.nearest(packet, start.splat_like(f32::INFINITY));
-        let enter = span.enter.max(start);
-        work.spans[place].enter = enter;
-        if (enter.lt(span.exit) & enter.le(nearest)).any() {
+        span.enter = span.enter.max(start);
+        if (span.enter.lt(span.exit) & span.enter.le(nearest)).any() {
             alive |= 1 << packet;
         }
-        place += 1;
     }
     alive
 }
@@ -143,85 +174,83 @@ fn gather<T: Lanes, L, M: Meets<T>>(token: T::Token, cuts: &Tree, rays: &M, firs
     }
 }
 
-/// Moves the entries of some packets out of up to 64 complements, until they are in none, and notes who moved them last;
-/// says whether any was moved.
+/// Moves the entries of the packets out of up to 64 complements, until they are in none, and notes who moved them last;
+/// says which packets have one that was moved.
 #[inline(always)]
-fn push<T: Lanes, L: Solid>(
-    token: T::Token,
-    view: &View<'_, '_, L>,
-    some: Range<usize>,
-    which: u32,
-    alive: u32,
-    work: &mut Workspace<T, L>,
-) -> bool {
-    // The spans of each complement lie one after the other, packet by packet; `seen_by` says of each packet by which
-    // complements it is touched.
-    let mut seen_by = [0_u64; MOST_PACKETS];
+fn push<T: Lanes, L: Solid>(token: T::Token, view: &View<'_, '_, L>, some: Range<usize>, work: &mut Workspace<T, L>) -> u32 {
+    // The spans of each complement lie one after the other, packet by packet.
     let mut starts = [0_usize; MOST_CUTS];
-    let mut end = MOST_PACKETS;
-    let from = some.start;
+    let mut end = 0;
+    let mut moved = 0;
+    let (mut touched_once, mut touched_again) = (0, 0);
     for cut in 0..some.len() {
-        let (place, touched) = work.cuts[from + cut];
-        let touched = touched & alive;
+        let (place, touched) = work.cuts[some.start + cut];
         starts[cut % MOST_CUTS] = end;
-        if touched == 0 {
-            continue;
-        }
-        leaf::spans(token, view, place, touched, &mut work.rays, Use::Keep(&mut work.spans[end..], 1));
+        let number = T::splat(token, view.scene.number(place) as f32);
+        let used = Use::Cut {
+            product: &mut work.product,
+            number,
+            moved: &mut moved,
+            spans: &mut work.spans[end..],
+        };
+        leaf::spans(token, view, place, touched, &mut work.rays, used);
         end += touched.count_ones() as usize;
-        let mut bits = touched;
+        touched_again |= touched_once & touched;
+        touched_once |= touched;
+    }
+    work.computed += end as u64;
+
+    // One complement alone is left for good. Of the others `seen_by` says of each packet by which it is touched.
+    let again = moved & touched_again;
+    if again == 0 {
+        return moved;
+    }
+    let mut seen_by = [0_u64; MOST_PACKETS];
+    for cut in 0..some.len() {
+        let mut bits = work.cuts[some.start + cut].1 & again;
         while bits != 0 {
             seen_by[bits.trailing_zeros() as usize % MOST_PACKETS] |= 1 << cut;
             bits &= bits - 1;
         }
     }
-    work.computed += (end - MOST_PACKETS) as u64;
-
-    let mut moved = false;
-    let mut bits = alive;
+    let mut bits = again;
     while bits != 0 {
-        let packet = bits.trailing_zeros() as usize;
+        let packet = bits.trailing_zeros() as usize % MOST_PACKETS;
         bits &= bits - 1;
-        let below = (1_u32 << packet) - 1;
-        let place = (which & below).count_ones() as usize;
-        let Span { enter, exit } = work.spans[place];
-        let (mut t, mut leaf) = (enter, work.leaves[place % MOST_PACKETS]);
-        let all = seen_by[packet % MOST_PACKETS];
-        let several = all & all.wrapping_sub(1) != 0;
-        loop {
-            let mut pushed = false;
+        let all = seen_by[packet];
+        let mut pushed = true;
+        while pushed {
+            pushed = false;
             let mut waiting = all;
             while waiting != 0 {
                 let cut = waiting.trailing_zeros() as usize;
                 waiting &= waiting - 1;
-                let (leaf_place, touched) = work.cuts[from + cut];
-                let own = work.spans[starts[cut % MOST_CUTS] + (touched & alive & below).count_ones() as usize];
-                let within = own.contains_after(t) & t.lt(exit);
-                if within.any() {
-                    let number = t.splat_like(view.scene.number(leaf_place) as f32);
-                    t = T::select(within, own.exit, t);
-                    leaf = T::select(within, number, leaf);
-                    pushed = true;
-                }
-            }
-            moved |= pushed;
-            // One complement alone is left for good.
-            if !pushed || !several {
-                break;
+                let (span, number) = kept(token, view, work, some.start + cut, starts[cut % MOST_CUTS], packet);
+                pushed |= work.product.cut(packet, span, number);
             }
         }
-        // Of all that end where the last one does the lowest number counts.
         let mut waiting = all;
         while waiting != 0 {
             let cut = waiting.trailing_zeros() as usize;
             waiting &= waiting - 1;
-            let (leaf_place, touched) = work.cuts[from + cut];
-            let own = work.spans[starts[cut % MOST_CUTS] + (touched & alive & below).count_ones() as usize];
-            let number = t.splat_like(view.scene.number(leaf_place) as f32);
-            leaf = T::select(own.exit.eq(t) & number.lt(leaf), number, leaf);
+            let (span, number) = kept(token, view, work, some.start + cut, starts[cut % MOST_CUTS], packet);
+            work.product.settle_tie(packet, span, number);
         }
-        work.spans[place].enter = t;
-        work.leaves[place % MOST_PACKETS] = leaf;
     }
     moved
+}
+
+/// The span of a complement along a packet, one of those that start at `start`, and the number of the leaf.
+#[inline(always)]
+fn kept<T: Lanes, L: Solid>(
+    token: T::Token,
+    view: &View<'_, '_, L>,
+    work: &Workspace<T, L>,
+    cut: usize,
+    start: usize,
+    packet: usize,
+) -> (Span<T>, T) {
+    let (place, touched) = work.cuts[cut];
+    let rank = (touched & ((1 << packet) - 1)).count_ones() as usize;
+    (work.spans[start + rank], T::splat(token, view.scene.number(place) as f32))
 }

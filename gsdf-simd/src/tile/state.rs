@@ -1,5 +1,6 @@
 //! What is known of a tile while its parts are visited, and where it is kept.
 
+use super::product::Product;
 use super::rays::{MOST_PACKETS, Rays};
 use crate::lanes::Lanes;
 use crate::scene::{Most, Waiting, Walk};
@@ -148,8 +149,8 @@ pub(crate) struct Workspace<T: Lanes, L> {
     pub(crate) inner_walk: Walk,
     /// Spans, packet by packet or leaf by leaf.
     pub(crate) spans: Vec<Span<T>>,
-    /// The leaves at the entries of the first of them.
-    pub(crate) leaves: [T; MOST_PACKETS],
+    /// The product at hand.
+    pub(crate) product: Product<T>,
     /// What a march walks: a program without what the tile's rays cannot meet.
     pub(crate) nodes: Vec<Node<L>>,
     /// The places of its leaves in the scene.
@@ -180,8 +181,8 @@ impl<T: Lanes, L> Workspace<T, L> {
             met: Met::new(token),
             walk: Walk::new(),
             inner_walk: Walk::new(),
-            spans: vec![empty; (1 + MOST_CUTS) * MOST_PACKETS],
-            leaves: [nothing; MOST_PACKETS],
+            spans: vec![empty; MOST_CUTS * MOST_PACKETS],
+            product: Product::new(token),
             nodes: Vec::new(),
             places: Vec::new(),
             every_place: Vec::new(),
