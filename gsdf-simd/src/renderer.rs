@@ -2,6 +2,7 @@
 
 use crate::lanes::Lanes;
 use crate::level::{Level, Work};
+use crate::prefetch::Ahead;
 use crate::scene::{Most, Scene, View};
 use crate::target::{Target, Wants};
 use crate::tile::{TILE_SIDE, Tile, Workspace, cast};
@@ -207,14 +208,12 @@ fn render_row<T: Lanes, L: Solid>(
     work.rays.look(token, view);
     let mut x = 0;
     while x < width {
-        if let Some(next) = target.place(x + side) {
-            next.prefetch(wants);
-        }
+        let next = target.place(x + side).map_or(Ahead::NOTHING, Ahead::of);
         let (place, is_own) = match target.place(x) {
             Some(place) => (place, false),
             None => (&mut *own, true),
         };
-        let mut hits = cast(token, view, [x, y], wants, work, place);
+        let mut hits = cast(token, view, [x, y], wants, work, place, next);
         if width - x < side || height - y < side {
             hits = place.hits(width - x, height - y);
         }

@@ -14,11 +14,13 @@ pub(crate) use single::{Found, cast_packet};
 pub(crate) use state::Workspace;
 
 use crate::lanes::Lanes;
+use crate::prefetch::Ahead;
 use crate::scene::{Beam, FANOUT, Form, Grid, Meets, Picture, View};
 use crate::target::Wants;
 use gsdf_nostd::Solid;
 
-/// Casts the rays through the pixels of the tile whose left upper pixel is (`x`, `y`), and tells how many hit something.
+/// Casts the rays through the pixels of the tile whose left upper pixel is (`x`, `y`), and tells how many hit something; the
+/// `next` one to be written is fetched meanwhile.
 #[inline(always)]
 pub(crate) fn cast<T: Lanes, L: Solid>(
     token: T::Token,
@@ -27,6 +29,7 @@ pub(crate) fn cast<T: Lanes, L: Solid>(
     wants: Wants,
     work: &mut Workspace<T, L>,
     tile: &mut Tile,
+    next: Ahead,
 ) -> u32 {
     work.rays.begin([x, y]);
     work.met.clear();
@@ -34,7 +37,7 @@ pub(crate) fn cast<T: Lanes, L: Solid>(
         let beam = Beam::new(raster, x, y, Grid::SIDE, Grid::new(rays::height::<T>() as u32));
         visit(token, view, &beam, None, work);
     }
-    shade::shade(token, view, wants, work, tile)
+    shade::shade(token, view, wants, work, tile, next)
 }
 
 /// What it takes to be content with any hit of the rays of a single packet.

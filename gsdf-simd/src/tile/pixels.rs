@@ -1,7 +1,8 @@
 //! What the rays of a tile have met.
 
-use crate::prefetch;
+use crate::prefetch::Ahead;
 use crate::target::Wants;
+use core::mem::offset_of;
 
 /// The side of a tile, in pixels.
 pub const TILE_SIDE: usize = 16;
@@ -51,16 +52,19 @@ impl Tile {
         }
     }
 
-    /// Says that the planes in which something is wanted are written next.
+    /// Says of a tile that is written next, and in which this is wanted, that from this pixel on it is.
     #[inline(always)]
-    pub(crate) fn prefetch(&mut self, wants: Wants) {
-        prefetch::for_writing(&mut self.distance);
-        prefetch::for_writing(&mut self.leaf);
+    pub(crate) fn fetch(next: Ahead, pixel: usize, wants: Wants) {
+        let plane = |plane: usize| next.fetch(plane + pixel * size_of::<f32>());
+        plane(offset_of!(Self, distance));
+        plane(offset_of!(Self, leaf));
         if wants.normals | wants.faces {
-            prefetch::for_writing(&mut self.normal);
+            for component in 0..3 {
+                plane(offset_of!(Self, normal) + component * size_of::<[f32; TILE_PIXELS]>());
+            }
         }
         if wants.faces {
-            prefetch::for_writing(&mut self.face);
+            plane(offset_of!(Self, face));
         }
     }
 

@@ -161,11 +161,13 @@ impl<T: Lanes> Rays<T> {
             if !looked {
                 line.origin = origin;
             }
-            line.toward = if components {
-                Toward::new(direction)
+            if components {
+                line.toward = Toward::new(direction);
             } else {
-                Toward::without_components(direction)
-            };
+                // What nobody looks at is left as it is.
+                let Toward { v, vv, per_vv, .. } = Toward::without_components(direction);
+                (line.toward.v, line.toward.vv, line.toward.per_vv) = (v, vv, per_vv);
+            }
             (self.scales[packet], self.starts[packet]) = (scale, earliest_on_line(length));
         }
     }

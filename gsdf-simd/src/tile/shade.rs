@@ -5,6 +5,7 @@ use super::pixels::Tile;
 use super::rays::{packets, start_of};
 use super::state::Workspace;
 use crate::lanes::{LaneMask, Lanes};
+use crate::prefetch::Ahead;
 use crate::scene::View;
 use crate::target::Wants;
 use core::ops::Range;
@@ -18,6 +19,7 @@ pub(crate) fn shade<T: Lanes, L: Solid>(
     wants: Wants,
     work: &mut Workspace<T, L>,
     tile: &mut Tile,
+    next: Ahead,
 ) -> u32 {
     let mut hits = 0;
     let mut asked = leaf::Asked::none();
@@ -26,6 +28,7 @@ pub(crate) fn shade<T: Lanes, L: Solid>(
     for packet in 0..packets::<T>() {
         let start = start_of::<T>(packet);
         let pixels = start..start + T::LANES;
+        Tile::fetch(next, start, wants);
         if work.met.touched >> packet & 1 == 0 {
             clear(tile, pixels, wants, nothing, zero);
             continue;

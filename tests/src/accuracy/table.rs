@@ -16,7 +16,7 @@ static BOUNDS: &str = include_str!("../../accuracy-bounds.csv");
 const COLUMNS: [&str; 7] = ["leaf", "corpus", "arithmetic", "wrong_share", "p99_ulp", "most_ulp", "u_condition"];
 
 /// How many rays of a cell must have been measured for a bound to follow from them.
-pub const LEAST_RAYS: u64 = 1 << 17;
+pub const LEAST_RAYS: u64 = 1_000_000;
 
 /// By how much a bound that nothing derives is larger than what was measured.
 const ROOM: f64 = 4.0;
