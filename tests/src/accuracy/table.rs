@@ -105,7 +105,7 @@ pub fn strays() -> Vec<String> {
 pub fn derived(leaf: usize) -> f64 {
     match KINDS[leaf] {
         "half-space" | "cuboid" => 3.0,
-        "sphere" => 2.5,
+        "sphere" => 3.5,
         "cylinder" | "capped cylinder" | "capsule" | "rhombus" => 4.5,
         _ if is_curved(leaf) => 20.0,
         _ => 4.0,
@@ -267,13 +267,13 @@ mod tests {
             wrong: 4e-3,
             p99: 16.0,
             most: 40.0,
-            conditioned: 2.5,
+            conditioned: 3.5,
         };
         assert_eq!(bounds(&FOUND, Arithmetic::Robust), expected);
         assert_eq!(bounds(&FOUND, Arithmetic::Plain).conditioned, 10.0);
         let mut worse = FOUND;
-        worse.conditioned.error = 2.6;
-        assert_eq!(bounds(&worse, Arithmetic::Double).conditioned, 11.0);
+        worse.conditioned.error = 3.6;
+        assert_eq!(bounds(&worse, Arithmetic::Double).conditioned, 15.0);
         let none = bounds(
             &Summary {
                 rays: 1_000_000,
@@ -281,7 +281,7 @@ mod tests {
             },
             Arithmetic::Robust,
         );
-        assert_eq!((none.wrong, none.p99, none.most, none.conditioned), (3.1e-5, 4.0, 4.0, 2.5));
+        assert_eq!((none.wrong, none.p99, none.most, none.conditioned), (3.1e-5, 4.0, 4.0, 3.5));
     }
 
     #[test]
