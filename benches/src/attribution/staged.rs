@@ -97,17 +97,26 @@ impl Solid for Staged {
     }
 
     #[inline(always)]
-    fn spans<T: Real>(&self, seen: Option<&Self::Seen<T::Scalar>>, lines: &[Line<T>], which: u32, spans: &mut [Span<T>], step: usize) {
+    fn spans<T: Real>(
+        &self,
+        seen: Option<&Self::Seen<T::Scalar>>,
+        lines: &[Line<T>; u32::BITS as usize],
+        which: u32,
+        mut each: impl FnMut(usize, Span<T>),
+    ) {
+        let Some(more) = self.times.checked_sub(1) else {
+            let nothing = Span::empty_like(lines[0].toward.vv);
+            let bits = (0..lines.len()).filter(|line| which >> line & 1 == 1);
+            return bits.for_each(|line| each(line, nothing));
+        };
         // What is behind the box cannot be known to be the same as before, so that it is all done again.
-        for _ in 0..self.times {
-            self.solid.spans(black_box(seen), black_box(lines), which, spans, step);
+        for _ in 0..more {
+            let ignore = |_, span| {
+                black_box(span);
+            };
+            self.solid.spans(black_box(seen), black_box(lines), which, ignore);
         }
-        if let (0, Some(line)) = (self.times, lines.first()) {
-            let nothing = Span::empty_like(line.toward.vv);
-            for span in spans.iter_mut().step_by(step.max(1)).take(which.count_ones() as usize) {
-                *span = nothing;
-            }
-        }
+        self.solid.spans(black_box(seen), black_box(lines), which, each);
     }
 
     #[inline(always)]

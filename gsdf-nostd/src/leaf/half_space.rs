@@ -111,6 +111,10 @@ impl Solid for HalfSpace {
     fn bounds(&self) -> Option<Bounds> {
         None
     }
+
+    fn as_half_space(&self) -> Option<HalfSpace> {
+        Some(*self)
+    }
 }
 
 #[cfg(test)]

@@ -37,7 +37,7 @@ macro_rules! leaf_set {
         }
 
         const _: () = {
-            use $crate::{Bounds, Ground, Line, Real, Solid, Span, Surface, Toward, V3};
+            use $crate::{Bounds, Ground, HalfSpace, Line, Real, Solid, Span, Surface, Toward, V3};
 
             /// One of the solids, seen from a point.
             #[derive(Clone, Copy)]
@@ -100,6 +100,12 @@ macro_rules! leaf_set {
                 fn bounds(&self) -> Option<Bounds> {
                     match self {
                         $(Self::$variant(solid) => solid.bounds(),)+
+                    }
+                }
+
+                fn as_half_space(&self) -> Option<HalfSpace> {
+                    match self {
+                        $(Self::$variant(solid) => solid.as_half_space(),)+
                     }
                 }
 

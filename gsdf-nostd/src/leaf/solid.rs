@@ -1,5 +1,6 @@
 //! What it takes to be a leaf of a program.
 
+use super::HalfSpace;
 use crate::ray::{Line, Ray, is_in_range};
 use crate::real::{Mask, Real};
 use crate::span::Span;
@@ -48,6 +49,12 @@ pub trait Solid: Copy {
 
     /// A box around the solid, or `None` where it is unbounded.
     fn bounds(&self) -> Option<Bounds>;
+
+    /// The solid, if it is a half-space: it has no bounds, but an evaluator can leave it out for rays that never meet it.
+    #[inline]
+    fn as_half_space(&self) -> Option<HalfSpace> {
+        None
+    }
 
     /// Whether its formulas look at [`Toward::per_component`]. Where no solid of a scene does, an evaluator may leave the
     /// three divisions out ([`Toward::without_components`]).

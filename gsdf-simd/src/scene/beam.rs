@@ -1,5 +1,7 @@
 //! The rays of a rectangle of pixels, as one thing that meets boxes or does not.
 
+use super::border::Border;
+use super::reduce::Known;
 use super::tree::{FANOUT, Group};
 use super::walk::{Meets, Met, OF_DISTANCE};
 use crate::lanes::{LaneMask, Lanes, MOST_LANES};
@@ -15,6 +17,9 @@ pub(crate) struct Beam {
     right: Vec3,
     up: Vec3,
     forward: Vec3,
+    /// The direction of the ray through the middle, and what is across the picture.
+    toward: Vec3,
+    sides: [Vec3; 2],
     /// What is to be subtracted from coordinates along `right` and `up`, where the rays are parallel.
     middle: [f32; 2],
     /// Half the side of the square, where the depth is one.
@@ -76,8 +81,15 @@ impl Beam {
         } else {
             (camera.right(), camera.up(), [across, upward])
         };
+        let sides = [camera.right(), camera.up()];
         Self {
             eye: camera.eye(),
+            toward: if spread {
+                forward + sides[0] * across + sides[1] * upward
+            } else {
+                forward
+            },
+            sides,
             right,
             up,
             forward,
@@ -161,7 +173,22 @@ impl Beam {
     }
 }
 
+impl Beam {
+    /// What all of the rays see of a half-space.
+    pub(crate) fn see(&self, border: &Border) -> Known {
+        let [right, up] = self.sides;
+        let middle = self.eye + right * self.middle[0] + up * self.middle[1];
+        let (apart, spread) = if self.spread { (0.0, self.half) } else { (self.half, 0.0) };
+        border.seen(middle, apart, self.toward, spread, self.sides)
+    }
+}
+
 impl<T: Lanes> Meets<T> for Beam {
+    #[inline(always)]
+    fn see(&self, border: &Border) -> Known {
+        Beam::see(self, border)
+    }
+
     #[inline(always)]
     fn meet(&self, token: T::Token, group: &Group, items: bool, met: &mut Met) {
         met.bits = 0;

@@ -1,6 +1,7 @@
 //! A program prepared for many rays: its parts, each in the form that is cheapest to cast rays at, and where they are.
 
 mod beam;
+mod border;
 mod reach;
 mod reduce;
 mod split;
@@ -17,6 +18,7 @@ pub(crate) use view::{Picture, View};
 pub use visible::Visible;
 pub(crate) use walk::{Meets, Met, OF_DISTANCE, Walk};
 
+use border::Border;
 use core::ops::Range;
 use gsdf_nostd::{Node, Program, Solid};
 use reach::Reach;
@@ -45,6 +47,8 @@ pub struct Scene<'a, L> {
     bounded: usize,
     /// The trees of the parts' complements, or of their leaves.
     cuts: Vec<Tree>,
+    /// The places of the half-spaces among the leaves, in order, with their planes.
+    borders: Vec<(u32, Border)>,
     divides_by_components: bool,
     most: Most,
 }
@@ -120,6 +124,7 @@ impl<'a, L: Solid> Scene<'a, L> {
             bounded: bounded.len(),
             tree: Tree::new(&sorted),
             cuts: Vec::new(),
+            borders: Vec::new(),
             divides_by_components: nodes
                 .iter()
                 .any(|node| matches!(node, Node::Leaf { solid, .. } if solid.divides_by_components())),
@@ -201,6 +206,9 @@ impl<'a, L: Solid> Scene<'a, L> {
         if let Some(place) = self.places.get_mut(factor.leaf) {
             *place = self.leaves.len() as u32;
         }
+        if let Some(border) = Border::of_solid(solid, self.program.pose(*frame)) {
+            self.borders.push((self.leaves.len() as u32, border));
+        }
         self.leaves.push(Literal {
             solid: *solid,
             frame: *frame,
@@ -242,6 +250,29 @@ impl<'a, L: Solid> Scene<'a, L> {
         &self.places
     }
 
+    /// The half-spaces among the leaves in some places, with their planes.
+    #[inline(always)]
+    pub(crate) fn borders(&self, places: &Range<u32>) -> &[(u32, Border)] {
+        let before = |end: u32| self.borders.partition_point(|(place, _)| *place < end);
+        self.borders.get(before(places.start)..before(places.end)).unwrap_or_default()
+    }
+
+    /// Whether rays miss a product of the solids in some places and of the complements of those from `first_cut` on, for all
+    /// that they see of the half-spaces among them.
+    #[inline(always)]
+    pub(crate) fn is_missed(&self, places: &Range<u32>, first_cut: u32, see: impl Fn(&Border) -> Known) -> bool {
+        let lost = |place: u32| if place < first_cut { Known::Outside } else { Known::Inside };
+        self.borders(places).iter().any(|(place, border)| see(border) == lost(*place))
+    }
+
+    /// Whether rays are inside of the solid in a place all the way, as far as they see that.
+    #[inline(always)]
+    pub(crate) fn is_inside(&self, place: u32, see: impl Fn(&Border) -> Known) -> bool {
+        self.borders(&(place..place + 1))
+            .iter()
+            .any(|(_, border)| see(border) == Known::Inside)
+    }
+
     /// A part; those in the order of the tree come first.
     #[inline(always)]
     pub(crate) fn part(&self, number: usize) -> Option<&Part> {
@@ -254,12 +285,12 @@ impl<'a, L: Solid> Scene<'a, L> {
         self.bounded..self.parts.len()
     }
 
-    /// Marks the leaves of a part, by their numbers.
-    pub(crate) fn mark(&self, part: usize, marked: &mut [bool]) {
+    /// Marks the leaves of a part as open, by their numbers.
+    pub(crate) fn mark(&self, part: usize, marked: &mut [Known]) {
         let Some(part) = self.parts.get(part) else { return };
         for place in part.leaves.clone() {
             if let Some(mark) = marked.get_mut(self.number(place) as usize) {
-                *mark = true;
+                *mark = Known::Open;
             }
         }
     }
@@ -306,6 +337,7 @@ impl<'a, L: Solid> Scene<'a, L> {
         self.leaves.capacity() * size_of::<Literal<L>>()
             + self.places.capacity() * size_of::<u32>()
             + self.parts.capacity() * size_of::<Part>()
+            + self.borders.capacity() * size_of::<(u32, Border)>()
             + self.tree.bytes()
             + trees
     }

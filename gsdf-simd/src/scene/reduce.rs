@@ -32,23 +32,21 @@ pub(crate) struct Reduced<'w, L> {
 }
 
 impl<L: Copy> Reduced<'_, L> {
-    /// Reduces the program of these nodes to the leaves that are `live`; a ray is outside of all others. `places` are
-    /// those of all leaves, in order.
-    pub(crate) fn reduce(&mut self, nodes: &[Node<L>], places: &[u32], live: &[bool]) -> Known {
+    /// Reduces the program of these nodes to the leaves that are open; of the others it is `known` where the rays are.
+    /// `places` are those of all leaves, in order.
+    pub(crate) fn reduce(&mut self, nodes: &[Node<L>], places: &[u32], known: &[Known]) -> Known {
         self.nodes.clear();
         self.places.clear();
         self.waiting.clear();
-        let mut leaves = places.iter().zip(live);
+        let mut leaves = places.iter().zip(known);
         for node in nodes {
             match node {
                 Node::Leaf { .. } => {
-                    let known = match leaves.next() {
-                        Some((_, false)) | None => Known::Outside,
-                        Some((place, true)) => {
-                            self.places.push(*place);
-                            Known::Open
-                        }
-                    };
+                    let (place, known) = leaves.next().unwrap_or((&0, &Known::Outside));
+                    let known = *known;
+                    if known == Known::Open {
+                        self.places.push(*place);
+                    }
                     let leaves = self.places.len() - usize::from(known == Known::Open);
                     self.waiting.push(Waiting {
                         known,
@@ -122,13 +120,18 @@ mod tests {
     use gsdf_nostd::{Leaf, Node, Sphere};
 
     fn reduced(nodes: &[Node], live: &[bool]) -> (Known, Vec<Node>, Vec<u32>) {
+        let known = live.iter().map(|&live| if live { Known::Open } else { Known::Outside });
+        reduced_to(nodes, &known.collect::<Vec<_>>())
+    }
+
+    fn reduced_to(nodes: &[Node], leaves: &[Known]) -> (Known, Vec<Node>, Vec<u32>) {
         let (mut made, mut places, mut waiting) = (Vec::new(), Vec::new(), Vec::new());
         let known = Reduced {
             nodes: &mut made,
             places: &mut places,
             waiting: &mut waiting,
         }
-        .reduce(nodes, &[0, 1, 2], live);
+        .reduce(nodes, &[0, 1, 2], leaves);
         (known, made, places)
     }
 
@@ -165,14 +168,14 @@ mod tests {
         );
     }
 
-    /// Every program of three leaves and two operators, with complements anywhere, under every choice of live leaves:
-    /// what is left of it has the membership of the whole.
+    /// Every program of three leaves and two operators, with complements anywhere, under every choice of what is known of
+    /// the leaves: what is left of it has the membership of the whole.
     #[test]
     fn membership_stays() {
         let operators = [Node::Union, Node::Intersection, Node::Difference];
-        for choice in 0..9 * 32 * 8_usize {
+        for choice in 0..9 * 32 * 27_usize {
             let (first, second) = (operators[choice % 3], operators[choice / 3 % 3]);
-            let (turned, live) = (choice / 9 % 32, choice / 9 / 32);
+            let (turned, known) = (choice / 9 % 32, choice / 9 / 32);
             let mut nodes = Vec::new();
             for (turn, node) in [leaf(1.0), leaf(2.0), first, leaf(3.0), second].into_iter().enumerate() {
                 nodes.push(node);
@@ -180,16 +183,19 @@ mod tests {
                     nodes.push(Node::Complement);
                 }
             }
-            let live: [bool; 3] = core::array::from_fn(|leaf| live >> leaf & 1 == 1);
-            let (known, made, places) = reduced(&nodes, &live);
+            let leaves = [known % 3, known / 3 % 3, known / 9].map(|known| [Known::Outside, Known::Inside, Known::Open][known]);
+            let (known, made, places) = reduced_to(&nodes, &leaves);
             for inside in 0..8_usize {
-                let within = |leaf: usize| live[leaf] && inside >> leaf & 1 == 1;
+                let within = |leaf: usize| match leaves[leaf] {
+                    Known::Open => inside >> leaf & 1 == 1,
+                    known => known == Known::Inside,
+                };
                 let expected = member(&nodes, &[within(0), within(1), within(2)]);
                 let found = match known {
                     Known::Open => member(&made, &places.iter().map(|&place| within(place as usize)).collect::<Vec<_>>()),
                     known => known == Known::Inside,
                 };
-                assert_eq!(found, expected, "{nodes:?} with {live:?} live");
+                assert_eq!(found, expected, "{nodes:?} with {leaves:?}");
             }
         }
     }

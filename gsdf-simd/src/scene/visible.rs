@@ -18,9 +18,9 @@ pub struct Visible<L> {
     met: Vec<u32>,
     /// The parts that it meets.
     parts: Vec<u32>,
-    /// What the reduction of a marched part works in: the places of its leaves, those that are met, and the outcome.
+    /// What the reduction of a marched part works in: the places of its leaves, what is known of them, and the outcome.
     every_place: Vec<u32>,
-    live: Vec<bool>,
+    known: Vec<Known>,
     places: Vec<u32>,
     reduced: Vec<Node<L>>,
     waiting: Vec<Waiting>,
@@ -43,7 +43,7 @@ impl<L> Visible<L> {
             met: Vec::new(),
             parts: Vec::new(),
             every_place: Vec::new(),
-            live: Vec::new(),
+            known: Vec::new(),
             places: Vec::new(),
             reduced: Vec::new(),
             waiting: Vec::new(),
@@ -150,6 +150,9 @@ impl<L: Solid> Scene<'_, L> {
     /// Adds a product: its positive factors, and the complements that the beam meets.
     fn add_product(&self, beam: &Beam, leaves: &Range<u32>, positives: u32, cuts: u32, visible: &mut Visible<L>) -> Known {
         let first_cut = leaves.start + positives;
+        if self.is_missed(leaves, first_cut, |border| beam.see(border)) {
+            return Known::Outside;
+        }
         visible.met.clear();
         if let Some(cuts) = self.cuts(cuts) {
             visible.meet(beam, cuts);
@@ -184,11 +187,16 @@ impl<L: Solid> Scene<'_, L> {
             return Known::Outside;
         };
         visible.meet(beam, tree);
-        visible.live.clear();
-        visible.live.resize(leaves.len(), false);
+        visible.known.clear();
+        visible.known.resize(leaves.len(), Known::Outside);
         for leaf in &visible.met {
-            if let Some(live) = visible.live.get_mut(*leaf as usize) {
-                *live = true;
+            if let Some(known) = visible.known.get_mut(*leaf as usize) {
+                *known = Known::Open;
+            }
+        }
+        for (place, border) in self.borders(leaves) {
+            if let Some(known) = visible.known.get_mut((place - leaves.start) as usize) {
+                *known = beam.see(border);
             }
         }
         visible.every_place.clear();
@@ -198,7 +206,7 @@ impl<L: Solid> Scene<'_, L> {
             places: &mut visible.places,
             waiting: &mut visible.waiting,
         };
-        let known = reduced.reduce(nodes, &visible.every_place, &visible.live);
+        let known = reduced.reduce(nodes, &visible.every_place, &visible.known);
         if known == Known::Open {
             let is_first = visible.nodes.is_empty();
             visible.nodes.append(&mut visible.reduced);

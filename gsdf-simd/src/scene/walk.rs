@@ -1,5 +1,7 @@
 //! From the top of a tree of boxes to those that some rays meet.
 
+use super::border::Border;
+use super::reduce::Known;
 use super::tree::{FANOUT, Group, MOST_LEVELS, Tree};
 use crate::lanes::Lanes;
 
@@ -12,6 +14,12 @@ pub(crate) trait Meets<T: Lanes> {
     /// Which of a group's boxes any of the rays may meet, and from where on; where the boxes are those of `items`, by the
     /// rays of which packets.
     fn meet(&self, token: T::Token, group: &Group, items: bool, met: &mut Met);
+
+    /// What all of the rays see of a half-space, all the way.
+    #[inline(always)]
+    fn see(&self, _: &Border) -> Known {
+        Known::Open
+    }
 }
 
 /// For the boxes of a group: which are met, from where on, and by whom.

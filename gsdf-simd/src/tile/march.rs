@@ -29,8 +29,9 @@ pub(crate) fn cast<T: Lanes, L: Solid, M: Meets<T>>(
         _ => (Some(scene.program().nodes()), Some(scene.tree())),
     };
     let (Some(nodes), Some(tree)) = (nodes, tree) else { return };
-    work.live.clear();
-    work.live.resize(if all { scene.program().leaves() } else { places.len() }, false);
+    work.known.clear();
+    work.known
+        .resize(if all { scene.program().leaves() } else { places.len() }, Known::Outside);
     work.inner_walk.begin(tree);
     while let Some(item) = work.inner_walk.next::<T, M>(token, tree, rays, f32::INFINITY) {
         let mut bits = work.inner_walk.met.bits;
@@ -38,33 +39,38 @@ pub(crate) fn cast<T: Lanes, L: Solid, M: Meets<T>>(
             let place = bits.trailing_zeros() as usize % FANOUT;
             bits &= bits - 1;
             if all {
-                scene.mark(item + place, &mut work.live);
-            } else if let Some(live) = work.live.get_mut(item + place) {
-                *live = true;
+                scene.mark(item + place, &mut work.known);
+            } else if let Some(known) = work.known.get_mut(item + place) {
+                *known = Known::Open;
             }
         }
     }
     work.every_place.clear();
     if all {
         for part in scene.unbounded() {
-            scene.mark(part, &mut work.live);
+            scene.mark(part, &mut work.known);
         }
         work.every_place.extend_from_slice(scene.places());
     } else {
+        for (place, border) in scene.borders(&places) {
+            if let Some(known) = work.known.get_mut((place - places.start) as usize) {
+                *known = rays.see(border);
+            }
+        }
         work.every_place.extend(places);
     }
     let known = reduce(nodes, work);
     march_reduced(token, view, known, which, all, work);
 }
 
-/// Reduces a program to its live leaves.
+/// Reduces a program to its open leaves.
 fn reduce<T: Lanes, L: Solid>(nodes: &[Node<L>], work: &mut Workspace<T, L>) -> Known {
     let mut reduced = Reduced {
         nodes: &mut work.nodes,
         places: &mut work.places,
         waiting: &mut work.waiting,
     };
-    reduced.reduce(nodes, &work.every_place, &work.live)
+    reduced.reduce(nodes, &work.every_place, &work.known)
 }
 
 /// Marches some packets through the reduced program. Where that is `all` there is, what they meet replaces whatever was

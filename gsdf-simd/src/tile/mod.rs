@@ -103,10 +103,17 @@ fn visit<T: Lanes, L: Solid, M: Meets<T>>(
         } else {
             break;
         }
-        work.rays.aim(token, view, which);
         match form {
-            Form::Product { positives, cuts } => product::cast(token, view, rays, leaves, *positives, scene.cuts(*cuts), which, work),
-            form => march::cast(token, view, rays, leaves, form, which, work),
+            Form::Product { positives, cuts } => {
+                if !scene.is_missed(&leaves, leaves.start + positives, |border| rays.see(border)) {
+                    work.rays.aim(token, view, which);
+                    product::cast(token, view, rays, leaves, *positives, scene.cuts(*cuts), which, work);
+                }
+            }
+            form => {
+                work.rays.aim(token, view, which);
+                march::cast(token, view, rays, leaves, form, which, work);
+            }
         }
         if let Some(any) = &any {
             settled = work.met.all_nearer(0, any.end, any.others);

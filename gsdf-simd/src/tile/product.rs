@@ -89,13 +89,19 @@ pub(crate) fn cast<T: Lanes, L: Solid, M: Meets<T>>(
             work.product.begin(packet, everywhere, infinity);
         }
     }
+    let mut begun = false;
     for place in part.start..first_cut {
+        // Of a solid that the rays are inside of all the way the product has nothing, as long as there is another one.
+        if (begun || place + 1 < first_cut) && view.scene.is_inside(place, |border| rays.see(border)) {
+            continue;
+        }
         let number = T::splat(token, view.scene.number(place) as f32);
-        let used = match (place == part.start, positives, cuts) {
-            (true, 1, None) => Use::Enter(&mut work.met, number),
-            (true, ..) => Use::Begin(&mut work.product, number),
-            (false, ..) => Use::Intersect(&mut work.product, number),
+        let used = match (begun, positives, cuts) {
+            (false, 1, None) => Use::Enter(&mut work.met, number),
+            (false, ..) => Use::Begin(&mut work.product, number),
+            (true, ..) => Use::Intersect(&mut work.product, number),
         };
+        begun = true;
         leaf::spans(token, view, place, which, &mut work.rays, used);
         work.computed += u64::from(which.count_ones());
     }

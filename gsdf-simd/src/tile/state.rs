@@ -3,7 +3,7 @@
 use super::product::Product;
 use super::rays::{MOST_PACKETS, Rays};
 use crate::lanes::Lanes;
-use crate::scene::{Most, Waiting, Walk};
+use crate::scene::{Known, Most, Waiting, Walk};
 use gsdf_nostd::{Mask, Node, Span};
 
 /// How many spans a march keeps at once; of programs with more leaves fewer packets are marched together.
@@ -157,8 +157,8 @@ pub(crate) struct Workspace<T: Lanes, L> {
     pub(crate) places: Vec<u32>,
     /// The places of the leaves of what is reduced, in order.
     pub(crate) every_place: Vec<u32>,
-    /// Which of them the tile's rays may meet.
-    pub(crate) live: Vec<bool>,
+    /// What the tile's rays see of them.
+    pub(crate) known: Vec<Known>,
     /// The operands that wait while a program is reduced: whether they are known to be inside or outside, and where
     /// their nodes and leaves start.
     pub(crate) waiting: Vec<Waiting>,
@@ -186,7 +186,7 @@ impl<T: Lanes, L> Workspace<T, L> {
             nodes: Vec::new(),
             places: Vec::new(),
             every_place: Vec::new(),
-            live: Vec::new(),
+            known: Vec::new(),
             waiting: Vec::new(),
             cuts: Vec::new(),
             computed: 0,
@@ -200,7 +200,7 @@ impl<T: Lanes, L> Workspace<T, L> {
         self.nodes.reserve(2 * marched);
         self.places.reserve(marched);
         self.every_place.reserve(marched);
-        self.live.reserve(marched);
+        self.known.reserve(marched);
         self.waiting.reserve(marched);
         let spans = (marched * MOST_PACKETS).min(marched.max(MOST_SPANS));
         if let (Some(empty), true) = (self.spans.first().copied(), self.spans.len() < spans) {

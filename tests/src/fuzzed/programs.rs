@@ -194,8 +194,9 @@ fn check_ray<T: Number>(program: &Program<'_>, tree: &Tree, poses: &[Transform],
         let empty = span.enter == infinity && span.exit == -infinity;
         assert!(empty || span.enter < span.exit, "{span:?} along {ray:?}: {nodes:?}");
     }
-    // What is nearer than the least normal number is past.
-    let start = ray.parameter_on_line(T::from(ray.range().start.max(f32::MIN_POSITIVE)));
+    // What is nearer than the least normal number is past, of the ray's parameter as of the line's.
+    let least = T::from(f32::MIN_POSITIVE);
+    let start = ray.parameter_on_line(T::from(ray.range().start.max(f32::MIN_POSITIVE))).max(least);
     let end = T::from(ray.range().end);
     let ahead: Vec<_> = tree.crossings(&spans).into_iter().filter(|crossing| crossing.t > start).collect();
     let within: Vec<_> = ahead.iter().take_while(|crossing| ray.parameter_of(crossing.t) < end).collect();
