@@ -167,7 +167,10 @@ impl Ray {
     /// gets the next one; and no query starts at a number below the normal ones, at which some processors take a hundred
     /// times as long.
     const fn earliest(self) -> f32 {
-        f32::MIN_POSITIVE * self.scale.max(1.0)
+        // 2^-126 times the scale, which is a power of two, if that is more than 1; without a product where one is a call.
+        let one = 1.0_f32.to_bits();
+        let scale = self.scale.to_bits();
+        f32::from_bits(if scale > one { scale } else { one } - (one - f32::MIN_POSITIVE.to_bits()))
     }
 
     /// Where queries start on [`line`](Self::line): at the start of the range, but not before 2^-126 of the ray's parameter
