@@ -19,7 +19,8 @@
 //!
 //! Without the feature `std` (on by default) the crate is `no_std` and does not allocate: packets and their queries.
 //! With it come [prepared scenes](Scene) and whole pictures of them on all cores ([`Renderer`]), and on x86-64 the vectors
-//! that the processor turns out to have.
+//! that the processor turns out to have. There is one line of `unsafe` code, in a module of its own: it asks the processor to
+//! fetch what is written next, which no program can see but by the clock.
 //!
 //! # Pictures and batches
 //! A [`Scene`] is a program taken apart once: into the operands of its outermost unions, each in the form that is cheapest to

@@ -10,9 +10,6 @@
 pub(crate) struct Ahead(usize);
 
 impl Ahead {
-    /// Nothing is written soon.
-    pub(crate) const NOTHING: Self = Self(0);
-
     /// What is written soon.
     #[inline(always)]
     pub(crate) fn of<P>(place: &mut P) -> Self {

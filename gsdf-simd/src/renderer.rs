@@ -208,7 +208,7 @@ fn render_row<T: Lanes, L: Solid>(
     work.rays.look(token, view);
     let mut x = 0;
     while x < width {
-        let next = target.place(x + side).map_or(Ahead::NOTHING, Ahead::of);
+        let next = target.place(x + side).map(Ahead::of);
         let (place, is_own) = match target.place(x) {
             Some(place) => (place, false),
             None => (&mut *own, true),

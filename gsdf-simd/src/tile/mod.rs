@@ -20,7 +20,7 @@ use crate::target::Wants;
 use gsdf_nostd::Solid;
 
 /// Casts the rays through the pixels of the tile whose left upper pixel is (`x`, `y`), and tells how many hit something; the
-/// `next` one to be written is fetched meanwhile.
+/// `next` one to be written, if it is known, is fetched meanwhile.
 #[inline(always)]
 pub(crate) fn cast<T: Lanes, L: Solid>(
     token: T::Token,
@@ -29,7 +29,7 @@ pub(crate) fn cast<T: Lanes, L: Solid>(
     wants: Wants,
     work: &mut Workspace<T, L>,
     tile: &mut Tile,
-    next: Ahead,
+    next: Option<Ahead>,
 ) -> u32 {
     work.rays.begin([x, y]);
     work.met.clear();

@@ -19,7 +19,7 @@ pub(crate) fn shade<T: Lanes, L: Solid>(
     wants: Wants,
     work: &mut Workspace<T, L>,
     tile: &mut Tile,
-    next: Ahead,
+    next: Option<Ahead>,
 ) -> u32 {
     let mut hits = 0;
     let mut asked = leaf::Asked::none();
@@ -28,7 +28,9 @@ pub(crate) fn shade<T: Lanes, L: Solid>(
     for packet in 0..packets::<T>() {
         let start = start_of::<T>(packet);
         let pixels = start..start + T::LANES;
-        Tile::fetch(next, start, wants);
+        if let Some(next) = next {
+            Tile::fetch(next, start, wants);
+        }
         if work.met.touched >> packet & 1 == 0 {
             clear(tile, pixels, wants, nothing, zero);
             continue;
