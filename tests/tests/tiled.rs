@@ -272,6 +272,25 @@ fn scenes_of_many_parts() {
     );
 }
 
+/// Far away, before a wall that every ray meets: what lies nearer is looked for only where it can be, and is nearer by little.
+#[test]
+fn in_front_of_a_wall() {
+    let shown = (0..100_u64).into_par_iter().map(|seed| {
+        let mut rng = Pcg64::seed_from_u64(seed);
+        let mut nodes = scattered(&mut rng, 60, 4);
+        let wall = Cuboid::new(vec3(-900.0, -900.0, 6.0), vec3(900.0, 900.0, 8.0)).unwrap();
+        nodes.extend([Node::leaf(wall.into()), Node::Union]);
+        let poses = [Transform::translation(Vec3::X).unwrap(), Transform::translation(Vec3::Y).unwrap()];
+        let program = Program::new(&nodes).unwrap().posed(&poses).unwrap();
+        let distance = rng.random_range(20.0_f32..1000.0);
+        let eye = vec3(coarse(&mut rng, 8), coarse(&mut rng, 8), -distance);
+        let camera = Camera::pinhole(eye, Vec3::ZERO, unit(&mut rng).as_vec3(), 7.0 / distance).unwrap();
+        check(&program, &camera.raster(48, 48), &format!("seed {seed}"))
+    });
+    let shown = shown.reduce(Shown::default, Shown::joined);
+    assert!(shown.hits > 200_000, "{shown:?}");
+}
+
 /// Half-spaces seen from both sides and along their planes, alone, in wedges, drilled, in frames and in what is no product: of
 /// what has no box a tile still leaves out what all of its rays miss, and what they are inside of all the way.
 #[test]
