@@ -4,7 +4,7 @@ use crate::lanes::Lanes;
 use crate::level::{Level, Work};
 use crate::packet::Packet;
 use crate::scene::{Scene, View};
-use crate::tile::{Found, Workspace, cast_packet};
+use crate::tile::{Found, Workspace, cast_packet, is_together};
 use crate::vectorized::Vectorized;
 use core::fmt;
 use core::marker::PhantomData;
@@ -137,13 +137,16 @@ impl RayHits<'_> {
 
 /// Casts rays of any kind at a scene, at a level and on all threads of the current `rayon` pool.
 ///
-/// A packet of rays that go the same way is much faster than one of rays that do not: neighbours in the arrays should be
-/// neighbours in the scene.
+/// Neighbours in the arrays that go about the same way from about the same place are taken through the scene together; others
+/// one by one, which takes several times as long.
 pub struct Caster<'s, 'a, L: Solid> {
     view: View<'s, 'a, L>,
     level: Level,
     idle: Mutex<Vec<RayCaster<L>>>,
 }
+
+/// Up to how many leaves rays are taken through a scene together wherever they go: it is soon gone through.
+const FEW_LEAVES: usize = 64;
 
 /// How many rays a thread takes at a time.
 const TOGETHER: usize = 1024;
@@ -238,27 +241,28 @@ impl Hits<'_> {
         }
     }
 
-    /// Puts those of a packet, the first of whose rays has this number.
+    /// Puts those of the first so many rays of a packet, the first of which has this number.
     #[inline(always)]
-    fn put<T: Lanes>(&mut self, first: usize, packet: &Packet<T>, found: &Found<T>) {
+    fn put<T: Lanes>(&mut self, first: usize, count: usize, packet: &Packet<T>, found: &Found<T>) {
+        let end = first + count;
         match self {
             Self::First(hits) => {
                 let nan = found.t.splat_like(f32::NAN);
                 let none = !packet.valid();
-                T::select(none, nan, found.t).store(from(hits.distance, first));
+                T::select(none, nan, found.t).store(from(hits.distance, first, end));
                 if let Some([x, y, z]) = &mut hits.normal {
-                    found.normal.x.store(from(x, first));
-                    found.normal.y.store(from(y, first));
-                    found.normal.z.store(from(z, first));
+                    found.normal.x.store(from(x, first, end));
+                    found.normal.y.store(from(y, first, end));
+                    found.normal.z.store(from(z, first, end));
                 }
                 if let Some(leaf) = &mut hits.leaf {
-                    found.leaf.store_numbers(from(leaf, first));
+                    found.leaf.store_numbers(from(leaf, first, end));
                 }
             }
             Self::Any(hits) => {
                 let mut numbers = [0; crate::lanes::MOST_LANES];
                 found.leaf.store_numbers(&mut numbers);
-                for (hit, number) in from(hits, first).iter_mut().zip(numbers).take(T::LANES) {
+                for (hit, number) in from(hits, first, end).iter_mut().zip(numbers) {
                     *hit = number != u32::MAX;
                 }
             }
@@ -266,10 +270,11 @@ impl Hits<'_> {
     }
 }
 
-/// A slice from a place on.
+/// A slice from a place on, to another one or as far as it reaches.
 #[inline(always)]
-fn from<N>(slice: &mut [N], place: usize) -> &mut [N] {
-    slice.get_mut(place..).unwrap_or_default()
+fn from<N>(slice: &mut [N], place: usize, end: usize) -> &mut [N] {
+    let end = end.min(slice.len());
+    slice.get_mut(place..end).unwrap_or_default()
 }
 
 /// What casts rays at a level.
@@ -328,10 +333,21 @@ fn cast_all<T: Lanes, L: Solid>(token: T::Token, view: &View<'_, '_, L>, rays: R
         Hits::Any(_) => (true, false),
     };
     let mut first = 0;
+    let (extent, many) = (view.scene.extent(), view.scene.program().leaves() > FEW_LEAVES);
+    // How many rays of those at hand are taken one by one.
+    let mut alone = 0;
     while first < rays.len() {
-        let packet = rays.split_at(first).1.packet::<T>(token);
-        let found = cast_packet(token, view, &packet, any, normals, work);
-        hits.put(first, &packet, &found);
-        first += T::LANES;
+        let mut packet = rays.split_at(first).1.packet::<T>(token);
+        if many && alone == 0 && !is_together(&packet, extent) {
+            alone = T::LANES;
+        }
+        if alone > 0 {
+            packet = packet.alone();
+        }
+        let found = cast_packet(token, view, &packet, any, normals, alone > 0, work);
+        let count = if alone > 0 { 1 } else { T::LANES };
+        hits.put(first, count, &packet, &found);
+        first += count;
+        alone = alone.saturating_sub(1);
     }
 }

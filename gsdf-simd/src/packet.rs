@@ -131,6 +131,30 @@ impl<T: Lanes> Packet<T> {
         (self.line, self.scale, self.start)
     }
 
+    /// The first ray, in every lane.
+    #[cfg(feature = "std")]
+    #[inline(always)]
+    pub(crate) fn alone(&self) -> Self {
+        let first = |lanes: T| lanes.splat_like(lanes.lane(0).unwrap_or(0.0));
+        let all = |v: V3<T>| V3::new(first(v.x), first(v.y), first(v.z));
+        let toward = &self.line.toward;
+        Self {
+            line: Line {
+                origin: all(self.line.origin),
+                toward: Toward {
+                    v: all(toward.v),
+                    vv: first(toward.vv),
+                    per_vv: first(toward.per_vv),
+                    per_component: all(toward.per_component),
+                },
+            },
+            scale: first(self.scale),
+            start: first(self.start),
+            end: first(self.end),
+            valid: self.valid.splat_like(self.valid.to_bits() & 1 == 1),
+        }
+    }
+
     /// Where the ranges end, in the parameter of the rays.
     #[cfg(feature = "std")]
     #[inline(always)]

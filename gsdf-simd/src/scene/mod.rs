@@ -49,6 +49,8 @@ pub struct Scene<'a, L> {
     cuts: Vec<Tree>,
     /// The places of the half-spaces among the leaves, in order, with their planes.
     borders: Vec<(u32, Border)>,
+    /// How far the parts that have bounds reach, along the longest axis.
+    extent: f32,
     divides_by_components: bool,
     most: Most,
 }
@@ -123,6 +125,11 @@ impl<'a, L: Solid> Scene<'a, L> {
             parts: Vec::with_capacity(subtrees.len()),
             bounded: bounded.len(),
             tree: Tree::new(&sorted),
+            extent: sorted
+                .iter()
+                .copied()
+                .reduce(Reach::joined)
+                .map_or(0.0, |all| 2.0 * all.half.max_element()),
             cuts: Vec::new(),
             borders: Vec::new(),
             divides_by_components: nodes
@@ -293,6 +300,12 @@ impl<'a, L: Solid> Scene<'a, L> {
                 *mark = Known::Open;
             }
         }
+    }
+
+    /// How far the parts that have bounds reach, along the longest axis.
+    #[inline(always)]
+    pub(crate) fn extent(&self) -> f32 {
+        self.extent
     }
 
     /// The tree of the parts that have bounds.

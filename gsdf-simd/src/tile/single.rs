@@ -4,9 +4,10 @@ use super::leaf::Asked;
 use super::shade::surface;
 use super::state::Workspace;
 use super::{AnyHit, visit};
-use crate::lanes::{Lanes, MOST_LANES};
+use crate::lanes::{LaneMask, Lanes, MOST_LANES};
 use crate::packet::Packet;
 use crate::scene::{FANOUT, Group, Meets, Met, OF_DISTANCE, View};
+use glam::Vec3;
 use gsdf_nostd::{Line, Mask, Solid, V3};
 
 /// What the rays of a packet hit.
@@ -20,14 +21,44 @@ pub(crate) struct Found<T: Lanes> {
     pub(crate) normal: V3<T>,
 }
 
-/// Casts the rays of a packet: each at the first crossing within its range or, where `any` will do, at some.
+/// Whether the rays of a packet go about the same way from about the same place, in a scene of this extent: only then do they
+/// meet about the same boxes, and are taken through a tree together.
 #[inline(always)]
+pub(crate) fn is_together<T: Lanes>(packet: &Packet<T>, extent: f32) -> bool {
+    let (Line { origin, toward }, _, _) = packet.into_parts();
+    let first = |v: V3<T>| V3::splat(v.x, Vec3::new(first_of(v.x), first_of(v.y), first_of(v.z)));
+    let apart = origin - first(origin);
+    let near = origin.x.splat_like(extent * NEARBY);
+    let (v, w) = (toward.v, first(toward.v));
+    let along = v.dot(w);
+    let aligned = along.splat_like(0.0).lt(along) & (toward.vv * w.norm_squared() * along.splat_like(ALIGNED)).le(along.squared());
+    let close = apart.x.abs().le(near) & apart.y.abs().le(near) & apart.z.abs().le(near);
+    (aligned & close | !packet.valid()).all()
+}
+
+/// The square of the cosine of the widest angle between rays that are taken together: some 18 degrees.
+const ALIGNED: f32 = 0.9;
+
+/// How far their origins may be apart, as a share of the scene's extent.
+const NEARBY: f32 = 1.0 / 16.0;
+
+/// The first lane.
+#[inline(always)]
+fn first_of<T: Lanes>(lanes: T) -> f32 {
+    lanes.lane(0).unwrap_or(0.0)
+}
+
+/// Casts the rays of a packet: each at the first crossing within its range or, where `any` will do, at some. They are taken
+/// through trees together; or `alone`, if they are all the same one.
+#[inline(always)]
+#[allow(clippy::too_many_arguments, reason = "what a cast is made of, passed through")]
 pub(crate) fn cast_packet<T: Lanes, L: Solid>(
     token: T::Token,
     view: &View<'_, '_, L>,
     packet: &Packet<T>,
     any: bool,
     normals: bool,
+    alone: bool,
     work: &mut Workspace<T, L>,
 ) -> Found<T> {
     let (line, scale, start) = packet.into_parts();
@@ -37,7 +68,7 @@ pub(crate) fn cast_packet<T: Lanes, L: Solid>(
     work.met.clear();
     // What begins beyond the end of a range is as good as not there.
     work.met.replace(0, end / scale, nothing);
-    let rays = Aimed::new(line, scale);
+    let rays = Aimed::new(line, scale, alone);
     let started = T::select(valid, start * scale, T::splat(token, 0.0));
     let any = any.then_some(AnyHit {
         end: end / scale,
@@ -69,52 +100,93 @@ struct Aimed<T: Lanes> {
     scale: T,
     /// How far from the middle of the world they start.
     reach: f32,
+    /// Whether they are all the same one.
+    alone: bool,
 }
 
 impl<T: Lanes> Aimed<T> {
     #[inline(always)]
-    fn new(line: Line<T>, scale: T) -> Self {
+    fn new(line: Line<T>, scale: T, alone: bool) -> Self {
         let V3 { x, y, z } = line.origin;
         Self {
             line,
             scale,
             reach: (x.abs() + y.abs() + z.abs()).greatest(),
+            alone,
+        }
+    }
+
+    /// Where each ray is within a box, or one ray within each, widened by a share of how far it is and how large: from where
+    /// on, infinite where it is nowhere.
+    #[inline(always)]
+    fn enters(&self, center: V3<T>, half: V3<T>) -> T {
+        let like = center.x;
+        let distance = like.splat_like(self.reach) + (center.x.abs() + center.y.abs() + center.z.abs()) + (half.x + half.y + half.z);
+        let margin = distance * like.splat_like(OF_DISTANCE);
+        let (origin, per) = (self.line.origin, self.line.toward.per_component);
+        let (mut enter, mut exit) = (like.splat_like(0.0), like.splat_like(f32::INFINITY));
+        for (center, half, origin, per) in [
+            (center.x, half.x, origin.x, per.x),
+            (center.y, half.y, origin.y, per.y),
+            (center.z, half.z, origin.z, per.z),
+        ] {
+            let half = half + margin;
+            let low = (center - half - origin) * per;
+            let high = (center + half - origin) * per;
+            // A ray in the plane of a side has no number there: it is not held back by it.
+            enter = low.min(high).max(enter);
+            exit = low.max(high).min(exit);
+        }
+        T::select(enter.le(exit), enter * self.scale, like.splat_like(f32::INFINITY))
+    }
+
+    /// The test of all boxes of a group with one ray, as many at once as there are lanes.
+    #[inline(always)]
+    fn meet_alone(&self, token: T::Token, group: &Group, met: &mut Met) {
+        let mut from = 0;
+        while from < FANOUT {
+            let some = from..from + T::LANES;
+            let load = |[x, y, z]: &[[f32; FANOUT]; 3]| {
+                V3::new(
+                    T::load(token, &x[some.clone()]),
+                    T::load(token, &y[some.clone()]),
+                    T::load(token, &z[some.clone()]),
+                )
+            };
+            let near = self.enters(load(&group.center), load(&group.half));
+            met.bits |= near.lt(T::splat(token, f32::INFINITY)).to_bits() << from;
+            near.store(&mut met.near[some.clone()]);
+            met.touched[some].fill(1);
+            from += T::LANES;
+        }
+    }
+
+    /// The test of each box of a group with all rays.
+    #[inline(always)]
+    fn meet_together(&self, token: T::Token, group: &Group, met: &mut Met) {
+        let ([x, y, z], [half_x, half_y, half_z]) = (&group.center, &group.half);
+        let splat = |value: f32| T::splat(token, value);
+        for place in 0..FANOUT {
+            let center = V3::new(splat(x[place]), splat(y[place]), splat(z[place]));
+            let half = V3::new(splat(half_x[place]), splat(half_y[place]), splat(half_z[place]));
+            let near = self.enters(center, half).least();
+            if near < f32::INFINITY {
+                met.bits |= 1 << place;
+                met.touched[place] = 1;
+                met.near[place] = near;
+            }
         }
     }
 }
 
 impl<T: Lanes> Meets<T> for Aimed<T> {
-    /// The slab test of each box with all rays.
     #[inline(always)]
     fn meet(&self, token: T::Token, group: &Group, _: bool, met: &mut Met) {
         met.bits = 0;
-        let (zero, infinity) = (T::splat(token, 0.0), T::splat(token, f32::INFINITY));
-        let (origin, per) = (self.line.origin, self.line.toward.per_component);
-        let ([x, y, z], [half_x, half_y, half_z]) = (&group.center, &group.half);
-        for place in 0..FANOUT {
-            let center = V3::new(x[place], y[place], z[place]);
-            let half = V3::new(half_x[place], half_y[place], half_z[place]);
-            let distance = self.reach + (center.x.abs() + center.y.abs() + center.z.abs()) + (half.x + half.y + half.z);
-            let margin = distance * OF_DISTANCE;
-            let (mut enter, mut exit) = (zero, infinity);
-            for (center, half, origin, per) in [
-                (center.x, half.x, origin.x, per.x),
-                (center.y, half.y, origin.y, per.y),
-                (center.z, half.z, origin.z, per.z),
-            ] {
-                let half = half + margin;
-                let low = (T::splat(token, center - half) - origin) * per;
-                let high = (T::splat(token, center + half) - origin) * per;
-                // A ray in the plane of a side has no number there: it is not held back by it.
-                enter = low.min(high).max(enter);
-                exit = low.max(high).min(exit);
-            }
-            let meets = enter.le(exit);
-            if meets.any() {
-                met.bits |= 1 << place;
-                met.touched[place] = 1;
-                met.near[place] = (T::select(meets, enter, infinity) * self.scale).least();
-            }
+        if self.alone {
+            self.meet_alone(token, group, met);
+        } else {
+            self.meet_together(token, group, met);
         }
     }
 }
