@@ -6,6 +6,7 @@ use clap::builder::PossibleValuesParser;
 use clap::{Parser, value_parser};
 use gsdf_benches::attribution::{Operation, stages, stores};
 use gsdf_benches::machine::Machine;
+use gsdf_benches::outcome::outcome;
 use gsdf_benches::scenes::{self, Scene};
 use gsdf_simd::Level;
 use std::io::{self, Write};
@@ -106,12 +107,5 @@ fn run(arguments: &Arguments) -> Result<()> {
 }
 
 fn main() -> ExitCode {
-    match run(&Arguments::parse()) {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(error) => {
-            // The whole chain of causes in one line. If nobody can read it, the status still tells.
-            let _ = writeln!(io::stderr(), "error: {error:#}");
-            ExitCode::FAILURE
-        }
-    }
+    outcome(run(&Arguments::parse()))
 }

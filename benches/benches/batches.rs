@@ -5,6 +5,7 @@ use clap::builder::PossibleValuesParser;
 use clap::{Parser, value_parser};
 use glam::Vec3;
 use gsdf_benches::machine::Machine;
+use gsdf_benches::outcome::outcome;
 use gsdf_benches::scenes::{self, Primitive, Scene};
 use gsdf_benches::stats::Estimate;
 use gsdf_simd::{Caster, Level, Pixel, RayHits, Rays};
@@ -178,12 +179,5 @@ fn run(arguments: &Arguments) -> Result<()> {
 }
 
 fn main() -> ExitCode {
-    match run(&Arguments::parse()) {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(error) => {
-            // The whole chain of causes in one line. If nobody can read it, the status still tells.
-            let _ = writeln!(io::stderr(), "error: {error:#}");
-            ExitCode::FAILURE
-        }
-    }
+    outcome(run(&Arguments::parse()))
 }

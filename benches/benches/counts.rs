@@ -3,6 +3,7 @@
 use anyhow::Result;
 use gsdf_benches::counts::{Tally, of_direction, of_leaves, of_scene};
 use gsdf_benches::inputs::{COUNT, SEED};
+use gsdf_benches::outcome::outcome;
 use gsdf_benches::scenes::Scene;
 use std::io::{self, Write};
 use std::process::ExitCode;
@@ -104,12 +105,5 @@ fn scenes(out: &mut impl Write) -> Result<()> {
 
 fn main() -> ExitCode {
     let mut out = io::stdout().lock();
-    match leaves(&mut out).and_then(|()| scenes(&mut out)) {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(error) => {
-            // If nobody can read it, the status still tells.
-            let _ = writeln!(io::stderr(), "error: {error:#}");
-            ExitCode::FAILURE
-        }
-    }
+    outcome(leaves(&mut out).and_then(|()| scenes(&mut out)))
 }

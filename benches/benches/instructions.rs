@@ -3,6 +3,7 @@
 use anyhow::{Context, Result};
 use clap::{Parser, value_parser};
 use gsdf_benches::instructions::{Change, Figure, Query, Way, record, recorded};
+use gsdf_benches::outcome::outcome;
 use std::io::{self, Write};
 use std::path::Path;
 use std::process::ExitCode;
@@ -74,13 +75,5 @@ fn run(arguments: &Arguments) -> Result<bool> {
 }
 
 fn main() -> ExitCode {
-    match run(&Arguments::parse()) {
-        Ok(true) => ExitCode::SUCCESS,
-        Ok(false) => ExitCode::FAILURE,
-        Err(error) => {
-            // The whole chain of causes in one line. If nobody can read it, the status still tells.
-            let _ = writeln!(io::stderr(), "error: {error:#}");
-            ExitCode::FAILURE
-        }
-    }
+    outcome(run(&Arguments::parse()))
 }

@@ -5,6 +5,7 @@ use anyhow::{Context, Result};
 use clap::Parser;
 use gsdf_benches::levels::{Arguments, Peer, Turn, beside, build_native, serve};
 use gsdf_benches::machine::Machine;
+use gsdf_benches::outcome::outcome;
 use gsdf_simd::Level;
 use std::io::{self, Write};
 use std::process::ExitCode;
@@ -71,12 +72,5 @@ fn run(arguments: &Arguments) -> Result<()> {
 }
 
 fn main() -> ExitCode {
-    match run(&Arguments::parse()) {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(error) => {
-            // The whole chain of causes in one line. If nobody can read it, the status still tells.
-            let _ = writeln!(io::stderr(), "error: {error:#}");
-            ExitCode::FAILURE
-        }
-    }
+    outcome(run(&Arguments::parse()))
 }

@@ -4,6 +4,7 @@ use anyhow::{Context, Result};
 use clap::Parser;
 use gsdf_benches::arguments::Arguments;
 use gsdf_benches::machine::Machine;
+use gsdf_benches::outcome::outcome;
 use gsdf_benches::race::{Pools, race, thread_ceiling};
 use gsdf_benches::report;
 use gsdf_benches::scenes::Scene;
@@ -39,12 +40,5 @@ fn run(arguments: &Arguments) -> Result<()> {
 }
 
 fn main() -> ExitCode {
-    match run(&Arguments::parse()) {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(error) => {
-            // The whole chain of causes in one line. If nobody can read it, the status still tells.
-            let _ = writeln!(io::stderr(), "error: {error:#}");
-            ExitCode::FAILURE
-        }
-    }
+    outcome(run(&Arguments::parse()))
 }

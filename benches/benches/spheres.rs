@@ -3,6 +3,7 @@
 use anyhow::{Context, Result};
 use clap::{Parser, value_parser};
 use gsdf_benches::machine::{self, Machine};
+use gsdf_benches::outcome::outcome;
 use gsdf_benches::scenes::{Primitive, Scene};
 use gsdf_benches::stats::Estimate;
 use gsdf_nostd::Node;
@@ -108,12 +109,5 @@ fn run(arguments: &Arguments) -> Result<()> {
 }
 
 fn main() -> ExitCode {
-    match run(&Arguments::parse()) {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(error) => {
-            // The whole chain of causes in one line. If nobody can read it, the status still tells.
-            let _ = writeln!(io::stderr(), "error: {error:#}");
-            ExitCode::FAILURE
-        }
-    }
+    outcome(run(&Arguments::parse()))
 }

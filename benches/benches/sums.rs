@@ -4,6 +4,7 @@ use anyhow::{Context, Result};
 use clap::{Parser, value_parser};
 use gsdf_benches::inputs::{COUNT, SEED};
 use gsdf_benches::machine::Machine;
+use gsdf_benches::outcome::outcome;
 use gsdf_benches::stats::Estimate;
 use gsdf_benches::sums::{Composed, Costs, all, costs, counts, inputs_for};
 use std::io::{self, Write};
@@ -109,12 +110,5 @@ fn run(arguments: &Arguments) -> Result<()> {
 }
 
 fn main() -> ExitCode {
-    match run(&Arguments::parse()) {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(error) => {
-            // The whole chain of causes in one line. If nobody can read it, the status still tells.
-            let _ = writeln!(io::stderr(), "error: {error:#}");
-            ExitCode::FAILURE
-        }
-    }
+    outcome(run(&Arguments::parse()))
 }

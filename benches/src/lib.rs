@@ -5,6 +5,7 @@
 //! | `cargo bench --bench race` | scenes, A and B by turns in one process: ratios with confidence intervals; `-- --csv FILE` to publish them |
 //! | `cargo bench --bench attribution` | where the time of a picture goes, stage by stage, beside what the processor and its memory can do |
 //! | `cargo bench --bench spheres` | a thousand to a million spheres: preparation, memory, pictures on one thread and on all |
+//! | `cargo bench --bench batches` | rays that have nothing in common, in batches: the first hit of each, and any |
 //! | `cargo bench --bench instructions` | instructions per pixel, counted by callgrind, against those on record |
 //! | `cargo bench --bench levels` | levels of this build and of a native one by turns: the share of its speed |
 //! | `cargo bench --bench sums` | shapes against the sum of their parts: ratios with confidence intervals, and operations |
@@ -27,6 +28,7 @@ pub mod instructions;
 pub mod leaves;
 pub mod levels;
 pub mod machine;
+pub mod outcome;
 pub mod race;
 pub mod report;
 pub mod scenes;

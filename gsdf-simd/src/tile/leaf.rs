@@ -31,6 +31,35 @@ pub(crate) enum Use<'u, T: Lanes> {
     Keep(&'u mut [Span<T>], usize),
 }
 
+impl<T: Lanes> Use<'_, T> {
+    /// Takes the span along a packet, which is the one of this rank among those asked for; its rays start at `start`.
+    #[inline(always)]
+    fn take(&mut self, packet: usize, rank: usize, span: Span<T>, start: T) {
+        match self {
+            Self::Enter(met, number) => met.enter_span(packet, span, *number, start),
+            Self::Begin(product, number) => product.begin(packet, span, *number),
+            Self::Intersect(product, number) => product.intersect(packet, span, *number),
+            Self::Cut {
+                product,
+                number,
+                moved,
+                spans,
+            } => {
+                **moved |= u32::from(product.cut(packet, span, *number)) << packet;
+                product.settle_tie(packet, span, *number);
+                if let Some(place) = spans.get_mut(rank) {
+                    *place = span;
+                }
+            }
+            Self::Keep(spans, step) => {
+                if let Some(place) = spans.get_mut(rank * *step) {
+                    *place = span;
+                }
+            }
+        }
+    }
+}
+
 /// The spans of the leaf in a place of the scene along some packets, in ascending order.
 #[inline(always)]
 pub(crate) fn spans<T: Lanes, L: Solid>(
@@ -74,30 +103,8 @@ pub(crate) fn spans<T: Lanes, L: Solid>(
                         let scale = scales[packet % MOST_PACKETS];
                         (span.enter, span.exit) = (own.enter * scale, own.exit * scale);
                     }
-                    match &mut used {
-                        Use::Enter(met, number) => met.enter_span(packet, span, *number, starts[packet % MOST_PACKETS]),
-                        Use::Begin(product, number) => product.begin(packet, span, *number),
-                        Use::Intersect(product, number) => product.intersect(packet, span, *number),
-                        Use::Cut {
-                            product,
-                            number,
-                            moved,
-                            spans,
-                        } => {
-                            **moved |= u32::from(product.cut(packet, span, *number)) << packet;
-                            product.settle_tie(packet, span, *number);
-                            if let Some(place) = spans.get_mut(rank) {
-                                *place = span;
-                            }
-                            rank += 1;
-                        }
-                        Use::Keep(spans, step) => {
-                            if let Some(place) = spans.get_mut(rank) {
-                                *place = span;
-                            }
-                            rank += *step;
-                        }
-                    }
+                    used.take(packet, rank, span, starts[packet % MOST_PACKETS]);
+                    rank += 1;
                 },
             );
         },
