@@ -68,6 +68,7 @@ const OF_PIXEL: f32 = 1.0 / 64.0;
 impl Beam {
     /// The beam through the square of `side` pixels whose left upper corner is pixel (`x`, `y`). Which packets touch a box is
     /// told for the side of a tile alone.
+    #[inline(always)]
     pub(crate) fn new(raster: &Raster, x: u32, y: u32, side: u32, packets: Grid) -> Self {
         let camera = raster.camera();
         let pixel = raster.pixel();
@@ -175,6 +176,7 @@ impl Beam {
 
 impl Beam {
     /// What all of the rays see of a half-space.
+    #[inline(always)]
     pub(crate) fn see(&self, border: &Border) -> Known {
         let [right, up] = self.sides;
         let middle = self.eye + right * self.middle[0] + up * self.middle[1];

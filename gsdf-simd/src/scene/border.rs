@@ -20,6 +20,7 @@ pub(crate) struct Border {
 }
 
 /// The sum of the magnitudes of a vector's components.
+#[inline(always)]
 fn size(v: Vec3) -> f32 {
     v.abs().element_sum()
 }
@@ -53,6 +54,7 @@ impl Border {
 
     /// What rays see of the half-space that start around `middle` and go along about `toward`, where both differ among them
     /// by up to `apart` and `spread` times the components of these two sides.
+    #[inline(always)]
     pub(crate) fn seen(&self, middle: Vec3, apart: f32, toward: Vec3, spread: f32, sides: [Vec3; 2]) -> Known {
         let across = self.normal.dot(sides[0]).abs() + self.normal.dot(sides[1]).abs();
         let reach = size(sides[0]) + size(sides[1]);
