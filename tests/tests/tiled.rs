@@ -272,6 +272,38 @@ fn scenes_of_many_parts() {
     );
 }
 
+/// Products of blocks on a grid, whose faces coincide, and of their complements, in any order: of all that begin or end where
+/// the product is entered the lowest number counts.
+#[test]
+fn faces_that_coincide() {
+    let shown = (0..400_u64).into_par_iter().map(|seed| {
+        let mut rng = Pcg64::seed_from_u64(seed);
+        let mut nodes: Vec<Node> = Vec::new();
+        let body = rng.random_range(0..3);
+        for number in 0..rng.random_range(3..8) {
+            let at = vec3(coarse(&mut rng, 1), coarse(&mut rng, 1), coarse(&mut rng, 1));
+            let is_positive = number == body || rng.random_range(0..3) == 0;
+            let size = if is_positive { 2.0 } else { rng.random_range(1..=3) as f32 * 0.5 };
+            let first = nodes.is_empty();
+            nodes.push(Node::leaf(
+                Cuboid::new(at - Vec3::splat(size), at + Vec3::splat(size)).unwrap().into(),
+            ));
+            if !is_positive {
+                nodes.push(Node::Complement);
+            }
+            if !first {
+                nodes.push(Node::Intersection);
+            }
+        }
+        let program = Program::new(&nodes).unwrap();
+        let eye = unit(&mut rng).as_vec3() * 7.0;
+        let raster = camera(&mut rng, eye, Vec3::ZERO, 2.0).raster(24, 24);
+        check(&program, &raster, &format!("seed {seed}"))
+    });
+    let shown = shown.reduce(Shown::default, Shown::joined);
+    assert!(shown.hits > 10_000, "{shown:?}");
+}
+
 /// Far away, before a wall that every ray meets: what lies nearer is looked for only where it can be, and is nearer by little.
 #[test]
 fn in_front_of_a_wall() {

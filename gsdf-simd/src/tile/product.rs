@@ -33,12 +33,12 @@ impl<T: Lanes> Product<T> {
         (self.spans[packet % MOST_PACKETS], self.leaves[packet % MOST_PACKETS]) = (own, number);
     }
 
-    /// Another solid: what is in both is left. Of two entries at the same place that with the lower number counts.
+    /// Another solid: what is in both is left. Of two entries at the same place that with the lower number counts, which is
+    /// that of the solid before: a product's come in the order of the program.
     #[inline(always)]
     pub(crate) fn intersect(&mut self, packet: usize, own: Span<T>, number: T) {
         let (all, leaf) = (self.spans[packet % MOST_PACKETS], self.leaves[packet % MOST_PACKETS]);
-        let lower = T::select(own.enter.eq(all.enter), number.min(leaf), leaf);
-        self.leaves[packet % MOST_PACKETS] = T::select(all.enter.lt(own.enter), number, lower);
+        self.leaves[packet % MOST_PACKETS] = T::select(all.enter.lt(own.enter), number, leaf);
         self.spans[packet % MOST_PACKETS] = all.intersection(own);
     }
 
