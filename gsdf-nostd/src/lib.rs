@@ -104,6 +104,7 @@ pub mod errata {}
 /// Drawn by `cargo run --release --package gsdf-tests --bin accuracy -- --chart gsdf-nostd/docs/accuracy.svg`.
 pub mod numerics {}
 
+mod bounded;
 mod camera;
 mod csg;
 #[cfg(feature = "defmt")]
@@ -124,10 +125,11 @@ mod transform;
 mod unit;
 mod vec3;
 
+pub use bounded::{Bounded, Judged, SLACK};
 pub use camera::{Camera, Projection, Raster};
 pub use csg::{
-    Anywhere, Attribution, Crossing, Crossings, Csg, Departure, Draft, Encounter, Footing, Hit, March, Node, OnSurface, Program,
-    ProgramError, SeenFrom, Sight, Start, attribute, march, sweep,
+    Anywhere, Attribution, Certificate, Certified, CertifiedScratch, Crossing, Crossings, Csg, Departure, Draft, Encounter, Footing, Hit,
+    March, Node, OnSurface, Program, ProgramError, SeenFrom, Settled, Sight, Start, attribute, certify, march, sweep,
 };
 pub use invalid::{Fault, Invalid};
 pub use leaf::{

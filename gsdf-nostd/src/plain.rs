@@ -70,6 +70,7 @@ impl<T: Real> Real for Plain<T> {
     type Mask = T::Mask;
     const LANES: usize = T::LANES;
     const ROBUST: bool = false;
+    const ROUNDOFF: f32 = T::ROUNDOFF;
     const INLINED: bool = T::INLINED;
     type Scalar = Plain<T::Scalar>;
 

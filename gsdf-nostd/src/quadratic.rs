@@ -13,7 +13,8 @@ use crate::real::Real;
 /// Tracing Gems, chapter 7 (2019).
 #[inline(always)]
 pub fn roots<T: Real>(per_a: T, b: T, c: T, d: T) -> (T, T) {
-    let q = -(b + d.sqrt().copysign(b));
+    // Either sign gives the roots: that of `b` gives them all their digits.
+    let q = -(b + d.sqrt().copysign(b.given()));
     let (x, y) = (q * per_a, c / q);
     (x.min(y), x.max(y))
 }

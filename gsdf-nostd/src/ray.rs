@@ -149,7 +149,7 @@ impl Ray {
         let scale = like.splat_like(self.scale);
         Line {
             origin: V3::splat(like, self.origin),
-            toward: Toward::new(V3::splat(like, self.direction).scaled(scale)),
+            toward: Toward::new(V3::splat(like, self.direction).times_power(scale)),
         }
     }
 
@@ -157,7 +157,7 @@ impl Ray {
     /// the normal numbers.
     #[inline]
     pub fn parameter_on_line<T: Real>(self, t: T) -> T {
-        t * t.splat_like(unit_scale(self.scale))
+        t.times_power(t.splat_like(unit_scale(self.scale)))
     }
 
     /// The least parameter at which a crossing counts: that which is 2^-126, the least normal number, of this ray or of
@@ -198,7 +198,7 @@ impl Ray {
     /// infinity.
     #[inline]
     pub fn parameter_of<T: Real>(self, t: T) -> T {
-        t * t.splat_like(self.scale)
+        t.times_power(t.splat_like(self.scale))
     }
 }
 

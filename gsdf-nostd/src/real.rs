@@ -16,6 +16,12 @@ pub trait Mask: Copy + BitAnd<Output = Self> + BitOr<Output = Self> + Not<Output
     /// The same truth value in every lane, in the shape of `self`.
     #[must_use]
     fn splat_like(self, value: bool) -> Self;
+    /// Where the truth values are certain: everywhere, but for comparisons of numbers that know their errors.
+    #[inline(always)]
+    #[must_use]
+    fn certain(self) -> Self {
+        self.splat_like(true)
+    }
     /// Whether the truth values differ, lane by lane.
     #[inline(always)]
     #[must_use]
@@ -57,8 +63,11 @@ pub trait Real: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Se
     /// that the arithmetic is made of. Others may share one copy of a formula, so that flash stays small.
     const INLINED: bool = false;
 
+    /// The unit roundoff: the most that an operation can be off by, relative to its result.
+    const ROUNDOFF: f32 = f32::EPSILON / 2.0;
+
     /// The arithmetic of one lane: `f32` for `f32` and its packets, `f64` for `f64`.
-    type Scalar: Lane;
+    type Scalar: Real<Scalar = Self::Scalar>;
 
     /// `value` in every lane; exact, since every arithmetic here contains the `f32` numbers.
     #[must_use]
@@ -113,6 +122,51 @@ pub trait Real: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Se
     fn squared(self) -> Self {
         self * self
     }
+
+    /// The product with a power of two, which is exact.
+    #[inline(always)]
+    #[must_use]
+    fn times_power(self, power: Self) -> Self {
+        self * power
+    }
+
+    // What follows makes a difference to arithmetics alone that bound their errors: `Bounded`.
+
+    /// The value as it is, right or not: for a number of which a formula only asks to be near to another one.
+    #[inline(always)]
+    #[must_use]
+    fn given(self) -> Self {
+        self
+    }
+    /// By how much the value may be off; zero where nobody knows.
+    #[inline(always)]
+    #[must_use]
+    fn doubt(self) -> Self {
+        self.splat_like(0.0)
+    }
+    /// The value, which may be off by so much more than its operations tell.
+    #[inline(always)]
+    #[must_use]
+    fn off_by(self, _doubt: Self) -> Self {
+        self
+    }
+    /// The value, of which nothing is known unless this is known to be false: where a formula leaves out what cannot be
+    /// computed.
+    #[inline(always)]
+    #[must_use]
+    fn unknown_where(self, lost: Self::Mask) -> Self {
+        let nothing = self.splat_like(0.0);
+        self.off_by(Self::select(lost, self.splat_like(f32::INFINITY), nothing))
+    }
+    /// The ends of a span where it is inhabited; elsewhere +inf and -inf.
+    #[inline(always)]
+    #[must_use]
+    fn ends_where(inhabited: Self::Mask, enter: Self, exit: Self) -> (Self, Self) {
+        (
+            Self::select(inhabited, enter, enter.splat_like(f32::INFINITY)),
+            Self::select(inhabited, exit, enter.splat_like(f32::NEG_INFINITY)),
+        )
+    }
 }
 
 /// The arithmetic of a single lane: `f32`, `f64`, or a newtype over one of them.
@@ -124,9 +178,10 @@ pub trait Lane: Real<Scalar = Self, Mask = bool> + PartialOrd + From<f32> {
 }
 
 macro_rules! real_scalar {
-    ($float:ty, $sqrt:path) => {
+    ($float:ty, $sqrt:path, $roundoff:expr) => {
         impl Real for $float {
             const LANES: usize = 1;
+            const ROUNDOFF: f32 = $roundoff;
             type Mask = bool;
             type Scalar = $float;
 
@@ -187,8 +242,8 @@ macro_rules! real_scalar {
     };
 }
 
-real_scalar!(f32, root::single);
-real_scalar!(f64, root::double);
+real_scalar!(f32, root::single, f32::EPSILON / 2.0);
+real_scalar!(f64, root::double, f32::EPSILON * f32::EPSILON / 128.0);
 
 #[cfg(test)]
 mod tests {

@@ -1,6 +1,6 @@
 //! What one ray sees of one solid: a half-open span of its parameter.
 
-use crate::real::Real;
+use crate::real::{Mask, Real};
 
 /// The part of a ray inside a convex solid: the parameters `enter <= t < exit`.
 ///
@@ -33,11 +33,8 @@ impl<T: Real> Span<T> {
     /// The span from `enter` to `exit` in the lanes where `condition` holds and `enter < exit`, empty elsewhere.
     #[inline(always)]
     pub fn between_where(condition: T::Mask, enter: T, exit: T) -> Self {
-        let inhabited = condition & enter.lt(exit);
-        Self {
-            enter: T::select(inhabited, enter, enter.splat_like(f32::INFINITY)),
-            exit: T::select(inhabited, exit, enter.splat_like(f32::NEG_INFINITY)),
-        }
+        let (enter, exit) = T::ends_where(condition & enter.lt(exit), enter, exit);
+        Self { enter, exit }
     }
 
     /// The span without points.
@@ -60,9 +57,11 @@ impl<T: Real> Span<T> {
     #[inline(always)]
     #[must_use]
     pub fn hull(self, other: Self) -> Self {
+        // Of a span that may be empty the ends say nothing.
+        let known = self.enter.lt(self.exit).certain() & other.enter.lt(other.exit).certain();
         Self {
-            enter: self.enter.min(other.enter),
-            exit: self.exit.max(other.exit),
+            enter: self.enter.min(other.enter).unknown_where(!known),
+            exit: self.exit.max(other.exit).unknown_where(!known),
         }
     }
 

@@ -65,7 +65,8 @@ impl<T: Real> Toward<T> {
 #[inline(always)]
 pub fn reciprocal_speed<T: Real>(speed: T) -> T {
     let parallel = speed.abs().lt(speed.splat_like(PARALLEL_SPEED));
-    speed.splat_like(1.0) / T::select(parallel, speed.splat_like(0.0), speed)
+    let zero = speed.splat_like(0.0);
+    (speed.splat_like(1.0) / T::select(parallel, zero, speed)).unknown_where(parallel & !speed.eq(zero))
 }
 
 #[cfg(test)]

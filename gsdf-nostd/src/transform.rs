@@ -53,8 +53,8 @@ impl<T: Real> LocalLine<T> {
     #[inline(always)]
     pub fn span_in_world(&self, span: Span<T>) -> Span<T> {
         Span {
-            enter: span.enter * self.scale,
-            exit: span.exit * self.scale,
+            enter: span.enter.times_power(self.scale),
+            exit: span.exit.times_power(self.scale),
         }
     }
 
@@ -185,11 +185,12 @@ impl Transform {
         let largest = v.x.abs().max(v.y.abs()).max(v.z.abs());
         let longer = like.splat_like(self.slow * LENGTHENED);
         let is_short = (largest * longer).le(like.splat_like(1.0));
-        let scale = T::select(is_short, longer, like.splat_like(self.slow));
+        // Either will do.
+        let scale = T::select(is_short, longer, like.splat_like(self.slow)).given();
         LocalLine {
             line: Line {
                 origin: self.point_to_local(line.origin),
-                toward: Toward::new(v.scaled(scale)),
+                toward: Toward::new(v.times_power(scale)),
             },
             scale,
         }

@@ -62,6 +62,13 @@ impl<T: Real> V3<T> {
         Self::new(self.x * factor, self.y * factor, self.z * factor)
     }
 
+    /// The vector times a power of two, which is exact.
+    #[inline(always)]
+    #[must_use]
+    pub fn times_power(self, power: T) -> Self {
+        Self::new(self.x.times_power(power), self.y.times_power(power), self.z.times_power(power))
+    }
+
     /// The square of the Euclidean norm.
     #[inline(always)]
     pub fn norm_squared(self) -> T {

@@ -90,6 +90,7 @@
 
 #[cfg(feature = "std")]
 mod batch;
+mod certified;
 mod lanes;
 mod level;
 mod packet;
@@ -101,6 +102,7 @@ mod renderer;
 mod scene;
 #[cfg(feature = "std")]
 mod target;
+mod tier;
 #[cfg(feature = "std")]
 mod tile;
 #[cfg(feature = "std")]
@@ -111,9 +113,10 @@ mod vectorized;
 pub use batch::RayCaster;
 #[cfg(feature = "std")]
 pub use batch::{Caster, LengthsDiffer, RayHits, Rays};
+pub use certified::certificate_of;
 #[cfg(all(feature = "std", target_arch = "x86_64"))]
 pub use lanes::{Avx2Mask, Avx2x8, Avx512Mask, Avx512x16};
-pub use lanes::{F32x8, LaneMask, Lanes, MOST_LANES, Mask8};
+pub use lanes::{F32x8, F64s, LaneMask, Lanes, MOST_LANES, Mask8, Truths};
 pub use level::{Level, LevelError, Work};
 #[cfg(feature = "std")]
 pub use packet::scratch;
@@ -127,6 +130,7 @@ pub use renderer::{Effort, Renderer};
 pub use scene::{Scene, Visible};
 #[cfg(feature = "std")]
 pub use target::{Planes, Records, Target, Tiles, TilesMut, Wants};
+pub use tier::{Double, Fast, Robust, Tier};
 #[cfg(feature = "std")]
 pub use tile::{Pixel, TILE_PIXELS, TILE_SIDE, Tile};
 #[cfg(feature = "std")]

@@ -155,8 +155,25 @@ impl<T: Lanes> Packet<T> {
         }
     }
 
+    /// The lines.
+    #[inline(always)]
+    pub(crate) fn line(&self) -> &Line<T> {
+        &self.line
+    }
+
+    /// By what their directions are scaled.
+    #[inline(always)]
+    pub(crate) fn scale(&self) -> T {
+        self.scale
+    }
+
+    /// Where the ranges start, in the parameter of the lines.
+    #[inline(always)]
+    pub(crate) fn start(&self) -> T {
+        self.start
+    }
+
     /// Where the ranges end, in the parameter of the rays.
-    #[cfg(feature = "std")]
     #[inline(always)]
     pub(crate) fn end(&self) -> T {
         self.end
@@ -273,7 +290,7 @@ fn within<T: Lanes>(v: V3<T>, limit: f32) -> T::Mask {
 }
 
 #[inline(always)]
-fn enough<'s, L, T>(program: &Program<'_, L>, scratch: &'s mut [Span<T>]) -> Result<&'s mut [Span<T>], ProgramError> {
+pub(crate) fn enough<'s, L, T>(program: &Program<'_, L>, scratch: &'s mut [Span<T>]) -> Result<&'s mut [Span<T>], ProgramError> {
     let length = scratch.len();
     scratch
         .get_mut(..program.leaves())

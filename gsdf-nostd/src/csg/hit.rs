@@ -31,7 +31,11 @@ impl Hit {
     /// What a ray meets at its parameter `t`, its numbers rounded to `f32`: for evaluators of one's own, such as packets.
     #[must_use]
     pub fn new<T: Lane>(ray: &Ray, t: T, met: &Encounter<T>) -> Self {
-        let t = t.to_f32();
+        Self::at(ray, t.to_f32(), met)
+    }
+
+    /// The same with the parameter in `f32` already.
+    pub(super) fn at<T: Lane>(ray: &Ray, t: f32, met: &Encounter<T>) -> Self {
         let point = ray.at(t);
         let V3 { x, y, z } = met.surface.normal;
         Self {

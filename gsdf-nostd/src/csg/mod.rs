@@ -2,6 +2,8 @@
 
 mod build;
 mod cast;
+mod certified;
+mod certify;
 mod check;
 mod draft;
 mod fold;
@@ -16,6 +18,8 @@ mod sight;
 mod start;
 mod sweep;
 
+pub use certified::{Certified, CertifiedScratch, Settled};
+pub use certify::{Certificate, certify};
 pub use check::ProgramError;
 pub use draft::Draft;
 pub use footing::{Anywhere, Footing, OnSurface, SeenFrom};

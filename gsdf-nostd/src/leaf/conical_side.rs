@@ -95,7 +95,7 @@ impl<T: Real> SeenCone<T> {
         let (across2, growth2) = (k2 * v.norm_squared(), growth.squared());
         let (shift, near) = if T::ROBUST {
             let flat = (k2 * zero.splat_like(FLAT)).lt(profile.s.squared()) & (across2 * zero.splat_like(STEEP)).lt(growth2);
-            let shift = T::select(flat, zero, -(self.w.dot(toward.v) * toward.per_vv));
+            let shift = T::select(flat, zero, -(self.w.dot(toward.v) * toward.per_vv)).given();
             (shift, self.w + toward.v.scaled(shift))
         } else {
             (zero, self.w)
@@ -125,7 +125,8 @@ impl<T: Real> SeenCone<T> {
         }
         // A steep ray always meets the cone; through the apex both roots coincide, and a least positive number keeps
         // them numbers.
-        let least = plain.max(zero.splat_like(f32::MIN_POSITIVE));
+        let least = zero.splat_like(f32::MIN_POSITIVE);
+        let least = plain.max(least).off_by(least);
         let d = T::select(steep & d.le(zero), least, d);
         let (first, last) = roots(zero.splat_like(1.0) / a, b, c, d);
         let widening = zero.lt(growth);
@@ -146,10 +147,11 @@ impl<T: Real> SeenCone<T> {
         let inward = T::select(steep, -growth, b - a * shift).lt(zero);
         let enter = T::select(on & inward, zero, enter);
         let exit = T::select(on & !inward, zero, exit);
+        let tilted = constant & !(across2 + growth2).eq(zero);
         Span::between_where(
             (steep | shallow | within) & ours,
-            T::select(within, -infinity, enter),
-            T::select(within, infinity, exit),
+            T::select(within, -infinity, enter).unknown_where(tilted),
+            T::select(within, infinity, exit).unknown_where(tilted),
         )
     }
 

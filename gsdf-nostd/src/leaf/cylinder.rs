@@ -133,9 +133,11 @@ impl<T: Real> SeenSide<T> {
         let per_a = a.splat_like(1.0) / a;
         let b = self.w.dot(v);
         let d = if T::ROBUST {
-            let l = self.w - v.scaled(b * per_a);
+            let nearest = b * per_a;
+            let l = self.w - v.scaled(nearest.given());
+            let away = (a * (self.r2 - l.norm_squared())).off_by((a * nearest.doubt()).squared());
             // On the side the roots are 0 and -2B/A.
-            T::select(self.c.eq(zero), b.squared(), a * (self.r2 - l.norm_squared()))
+            T::select(self.c.eq(zero), b.squared(), away)
         } else {
             b.squared() - a * self.c
         };
@@ -145,10 +147,11 @@ impl<T: Real> SeenSide<T> {
             return Span::empty_like(zero);
         }
         let (enter, exit) = roots(per_a, b, self.c, d);
+        let tilted = parallel & !a.eq(zero);
         Span::between_where(
             met,
-            T::select(parallel, zero.splat_like(f32::NEG_INFINITY), enter),
-            T::select(parallel, zero.splat_like(f32::INFINITY), exit),
+            T::select(parallel, zero.splat_like(f32::NEG_INFINITY), enter).unknown_where(tilted),
+            T::select(parallel, zero.splat_like(f32::INFINITY), exit).unknown_where(tilted),
         )
     }
 

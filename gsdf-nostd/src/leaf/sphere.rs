@@ -105,9 +105,12 @@ impl Solid for Sphere {
         let zero = seen.c.splat_like(0.0);
         let b = seen.w.dot(toward.v);
         let d = if T::ROBUST {
-            let l = seen.w - toward.v.scaled(b * toward.per_vv);
+            let nearest = b * toward.per_vv;
+            let l = seen.w - toward.v.scaled(nearest.given());
             let radius = seen.c.splat_like(self.radius);
             let away = toward.vv * (radius.squared() - l.norm_squared());
+            // What `l` has along the ray counts twice: by its square.
+            let away = away.off_by((toward.vv * nearest.doubt()).squared());
             // On the surface the roots are 0 and -2B/A.
             T::select(seen.c.eq(zero), b.squared(), away)
         } else {

@@ -6,7 +6,7 @@
 //!
 //! Only operations that round correctly are taken from `fearless_simd`: not its fused or estimated ones.
 
-use super::{LaneMask, Lanes, padded, put};
+use super::{F64s, LaneMask, Lanes, padded, put};
 use core::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 use fearless_simd::prelude::*;
 use fearless_simd::x86::{Avx2, Avx512};
@@ -140,6 +140,7 @@ macro_rules! lanes_in_a_register {
         impl Lanes for $number {
             type Token = $token;
             type Array = [f32; $lanes];
+            type Doubles = F64s<$lanes>;
 
             fn detect() -> Option<$token> {
                 Level::new().$has()
@@ -159,6 +160,14 @@ macro_rules! lanes_in_a_register {
             #[inline(always)]
             fn to_array(self) -> [f32; $lanes] {
                 self.0.into()
+            }
+            #[inline(always)]
+            fn to_doubles(self) -> F64s<$lanes> {
+                F64s::from_singles(&self.to_array())
+            }
+            #[inline(always)]
+            fn from_doubles(token: $token, doubles: F64s<$lanes>) -> Self {
+                Self($floats::simd_from(token, doubles.to_singles()))
             }
             #[inline(always)]
             fn store(self, place: &mut [f32]) {

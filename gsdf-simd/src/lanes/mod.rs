@@ -2,10 +2,12 @@
 
 #[cfg(all(feature = "std", target_arch = "x86_64"))]
 mod dispatched;
+mod doubles;
 mod wide;
 
 #[cfg(all(feature = "std", target_arch = "x86_64"))]
 pub use dispatched::{Avx2Mask, Avx2x8, Avx512Mask, Avx512x16};
+pub use doubles::{F64s, Truths};
 pub use wide::{F32x8, Mask8};
 
 use gsdf_nostd::{Mask, Real};
@@ -22,6 +24,8 @@ pub trait Lanes: Real<Scalar = f32, Mask: LaneMask> + Send + Sync + 'static {
     type Token: Copy + Send + Sync;
     /// The lanes one by one.
     type Array: AsRef<[f32]>;
+    /// As many `f64`.
+    type Doubles: Real<Scalar = f64>;
 
     /// What values are made from, if this machine has the instructions they need. The processor is asked once.
     #[must_use]
@@ -38,6 +42,12 @@ pub trait Lanes: Real<Scalar = f32, Mask: LaneMask> + Send + Sync + 'static {
     /// The lanes, first to last.
     #[must_use]
     fn to_array(self) -> Self::Array;
+    /// The lanes as `f64`.
+    #[must_use]
+    fn to_doubles(self) -> Self::Doubles;
+    /// The nearest numbers to so many `f64`.
+    #[must_use]
+    fn from_doubles(token: Self::Token, doubles: Self::Doubles) -> Self;
     /// Puts the lanes into a slice, first to last, as far as it reaches.
     fn store(self, place: &mut [f32]);
     /// The power of two at or below each lane, for positive normal numbers: their exponent bits alone.

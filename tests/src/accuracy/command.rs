@@ -4,7 +4,7 @@ use super::chart;
 use super::corpus::Corpus;
 use super::measure::{Cell, PART};
 use super::record::Record;
-use super::table::{allowed, floors, verdict, write_bounds};
+use super::table::{allowed, verdict, write_bounds};
 use super::trial::{Arithmetic, Reference};
 use crate::shape::KINDS;
 use clap::builder::PossibleValuesParser;
@@ -108,7 +108,7 @@ impl Arguments {
         for &cell in cells {
             let mut record = Record::default();
             for first in (0..self.rays).step_by(PART as usize) {
-                record.add(cell, &cell.measure(first..(first + PART).min(self.rays), floors(cell)));
+                record.add(cell, &cell.measure(first..(first + PART).min(self.rays), record.floors(cell)));
             }
             progress.suspend(|| print(&mut out, cell, &record))?;
             breaches.extend(verdict(cell, &record));

@@ -19,8 +19,7 @@ pub const PART: u64 = 1 << 15;
 /// How many rays in succession are aimed at one solid.
 const RAYS_AT_ONE: u64 = 512;
 
-/// How much larger than `|t|` the condition of a crossing may be, as far as it is the ray's, for its error to count in
-/// units in the last place.
+/// How much larger than `|t|` the condition of a crossing may be for its error to count in units in the last place.
 pub const WELL_CONDITIONED: f64 = 64.0;
 
 /// The rays of one corpus at one kind of leaf.
@@ -70,18 +69,47 @@ pub fn is_curved(leaf: usize) -> bool {
     CURVED.contains(&KINDS[leaf])
 }
 
-/// The largest errors of any crossing so far, by arithmetic, shared between threads: smaller ones need no condition.
-#[derive(Debug)]
-struct Floors([AtomicU64; 3]);
+/// Errors that need not be told from smaller ones.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Floor {
+    /// Of well-conditioned crossings, in units in the last place.
+    pub most: f64,
+    /// Of any crossing, in units roundoff of its condition.
+    pub conditioned: f64,
+}
 
-impl Floors {
-    /// The bits of positive numbers are ordered as the numbers are.
-    fn raise(&self, arithmetic: usize, error: f64) {
-        self.0[arithmetic].fetch_max(error.to_bits(), Ordering::Relaxed);
+/// The largest error so far, shared between threads: crossings with smaller ones need no condition.
+#[derive(Debug)]
+struct Largest(AtomicU64);
+
+impl Largest {
+    fn new(error: f64) -> Self {
+        Self(AtomicU64::new(error.to_bits()))
     }
 
-    fn get(&self, arithmetic: usize) -> f64 {
-        f64::from_bits(self.0[arithmetic].load(Ordering::Relaxed))
+    /// The bits of positive numbers are ordered as the numbers are.
+    fn raise(&self, error: f64) {
+        self.0.fetch_max(error.to_bits(), Ordering::Relaxed);
+    }
+
+    fn get(&self) -> f64 {
+        f64::from_bits(self.0.load(Ordering::Relaxed))
+    }
+}
+
+/// The largest errors so far in one arithmetic.
+#[derive(Debug)]
+struct Largests {
+    most: Largest,
+    conditioned: Largest,
+}
+
+impl From<Floor> for Largests {
+    fn from(floor: Floor) -> Self {
+        Self {
+            most: Largest::new(floor.most),
+            conditioned: Largest::new(floor.conditioned),
+        }
     }
 }
 
@@ -127,11 +155,11 @@ impl Cell {
         })
     }
 
-    /// Measures rays by their numbers, on all threads. Errors, in units roundoff of the condition, below `floors` are
-    /// taken for these, which saves the computation of their condition.
+    /// Measures rays by their numbers, on all threads. The largest errors are not told where they are below these floors,
+    /// which saves the computation of their condition.
     #[must_use]
-    pub fn measure(self, rays: Range<u64>, floors: [f64; 3]) -> Measured {
-        let floors = Floors(floors.map(|floor| AtomicU64::new(floor.to_bits())));
+    pub fn measure(self, rays: Range<u64>, floors: [Floor; 3]) -> Measured {
+        let floors = floors.map(Largests::from);
         let targets: Vec<Range<u64>> = Self::by_target(rays).collect();
         targets
             .into_par_iter()
@@ -141,14 +169,14 @@ impl Cell {
     }
 
     /// Measures rays at one and the same target.
-    fn measure_at_one(self, rays: Range<u64>, floors: &Floors) -> Measured {
+    fn measure_at_one(self, rays: Range<u64>, largest: &[Largests; 3]) -> Measured {
         let target = self.target(rays.start);
         let solid = target.solid();
         let view = View {
             leaf: solid.leaf().expect("corpora make valid shapes"),
             reference: Reference::new(solid),
             is_facet: solid.shape.is_facet(),
-            floors,
+            largest,
         };
         let mut measured = Measured::default();
         for ray in rays {
@@ -168,7 +196,7 @@ struct View<'a> {
     leaf: Leaf,
     reference: Reference,
     is_facet: bool,
-    floors: &'a Floors,
+    largest: &'a [Largests; 3],
 }
 
 /// The true span, with the condition of each end, as far as it is the ray's.
@@ -223,24 +251,24 @@ impl View<'_> {
             if arithmetic.roundoff() * condition < t.to_f64().abs() {
                 statistics.count(ulps);
             }
-            if condition <= WELL_CONDITIONED * t.to_f64().abs() {
-                statistics.most.see(Worst { error: ulps, ray });
+            if error == 0.0 {
+                continue;
             }
-            let roundings = |condition: f64| {
-                if error == 0.0 {
-                    0.0
-                } else {
-                    error / (arithmetic.roundoff() * condition)
-                }
-            };
             // The condition is no less than the ray's share of it: what is below the largest so far need not be known.
-            if roundings(condition) > self.floors.get(arithmetic as usize) {
+            let largest = &self.largest[arithmetic as usize];
+            let roundings = |condition: f64| error / (arithmetic.roundoff() * condition);
+            let is_well_conditioned = |condition: f64| condition <= WELL_CONDITIONED * t.to_f64().abs();
+            if roundings(condition) > largest.conditioned.get() || (is_well_conditioned(condition) && ulps > largest.most.get()) {
                 let condition = self
                     .reference
                     .condition((trial.origin, trial.direction), t, found, arithmetic.roundoff());
                 let worst = roundings(condition);
                 statistics.conditioned.see(Worst { error: worst, ray });
-                self.floors.raise(arithmetic as usize, worst);
+                largest.conditioned.raise(worst);
+                if is_well_conditioned(condition) {
+                    statistics.most.see(Worst { error: ulps, ray });
+                    largest.most.raise(ulps);
+                }
             }
         }
     }

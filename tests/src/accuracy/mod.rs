@@ -9,6 +9,7 @@
 //! these rays and of all that were measured since.
 
 mod backward;
+mod certainty;
 pub mod chart;
 pub mod command;
 mod corpus;
@@ -19,7 +20,8 @@ pub mod table;
 mod trial;
 
 pub use backward::Backward;
+pub use certainty::Certainty;
 pub use corpus::{Corpus, Target};
-pub use measure::{Cell, Measured, PART, WELL_CONDITIONED, is_curved};
+pub use measure::{Cell, Floor, Measured, PART, WELL_CONDITIONED, is_curved};
 pub use statistics::{Statistics, Summary, Worst};
 pub use trial::{Arithmetic, Placed, Reference, Trial};

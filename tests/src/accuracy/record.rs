@@ -1,7 +1,7 @@
 //! The record: what was measured so far, in a file that later runs go on with.
 
 use super::corpus::Corpus;
-use super::measure::{Cell, Measured};
+use super::measure::{Cell, Floor, Measured};
 use super::statistics::{Summary, Worst};
 use super::trial::Arithmetic;
 use crate::shape::KINDS;
@@ -106,10 +106,14 @@ impl Record {
         rays.min().unwrap_or_default()
     }
 
-    /// For each arithmetic the largest error recorded, in units roundoff of the condition.
+    /// For each arithmetic the largest errors recorded.
     #[must_use]
-    pub fn floors(&self, cell: Cell) -> [f64; 3] {
-        Arithmetic::ALL.map(|arithmetic| self.get(cell, arithmetic).map_or(0.0, |found| found.conditioned.error))
+    pub fn floors(&self, cell: Cell) -> [Floor; 3] {
+        let largest = |found: &Summary| Floor {
+            most: found.most.error,
+            conditioned: found.conditioned.error,
+        };
+        Arithmetic::ALL.map(|arithmetic| self.get(cell, arithmetic).map(largest).unwrap_or_default())
     }
 
     /// Takes further rays of a cell into the record.

@@ -1,6 +1,6 @@
 //! The table: what is allowed in every cell, and whether what was measured is.
 
-use super::measure::{Cell, PART, is_curved};
+use super::measure::{Cell, Floor, PART, is_curved};
 use super::record::Record;
 use super::statistics::{Summary, Worst};
 use super::trial::Arithmetic;
@@ -20,6 +20,10 @@ pub const LEAST_RAYS: u64 = 1_000_000;
 
 /// By how much a bound that nothing derives is larger than what was measured.
 const ROOM: f64 = 4.0;
+
+/// By how much the largest errors of textbook formulas may exceed what was measured. They are the larger the nearer a ray
+/// grazes, without end: the largest of three million rays is well beyond that of one million.
+const ROOM_OF_PLAIN: f64 = 16.0;
 
 /// The most that is allowed in a cell.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -99,36 +103,54 @@ pub fn strays() -> Vec<String> {
         .collect()
 }
 
-/// What the page `numerics` of the library's documentation derives for a kind of leaf, in units roundoff of the
-/// condition.
-#[must_use]
-pub fn derived(leaf: usize) -> f64 {
-    match KINDS[leaf] {
-        "half-space" | "cuboid" => 3.0,
-        "sphere" => 3.5,
-        "cylinder" | "capped cylinder" | "capsule" | "rhombus" => 4.5,
-        _ if is_curved(leaf) => 20.0,
-        _ => 4.0,
+/// A figure of the page `numerics` of the library's documentation, in units roundoff of the condition.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Figure {
+    /// All roundings are counted there: no crossing exceeds it.
+    Counted(f64),
+    /// The first order of what is counted: it holds where not even half of it was seen.
+    Expected(f64),
+}
+
+impl Figure {
+    /// The figure of a kind of leaf.
+    #[must_use]
+    pub fn of(leaf: usize) -> Self {
+        match KINDS[leaf] {
+            "half-space" | "cuboid" => Self::Counted(3.0),
+            "sphere" => Self::Counted(3.5),
+            "cylinder" | "capped cylinder" | "capsule" | "rhombus" => Self::Expected(4.5),
+            _ if is_curved(leaf) => Self::Expected(20.0),
+            _ => Self::Expected(4.0),
+        }
+    }
+
+    /// The bound that it is for a row in which this was the largest, if it is one.
+    fn bound(self, largest: f64) -> Option<f64> {
+        let (figure, seen) = match self {
+            Self::Counted(figure) => (figure, largest),
+            Self::Expected(figure) => (figure, 2.0 * largest),
+        };
+        (seen <= figure).then_some(figure)
     }
 }
 
 impl Allowed {
-    /// The bounds that follow from what was measured: four times as much, rounded up to two digits; of robust arithmetics
-    /// what is [`derived`], where that is met. Nothing is held to less than one ray of a [`PART`], or to less than four units in
-    /// the last place.
+    /// The bounds that follow from what was measured: of robust arithmetics the [`Figure`] of the leaf, where that is a
+    /// bound, and else four times as much, rounded up to two digits. Nothing is held to less than one ray of a [`PART`], or
+    /// to less than four units in the last place.
     #[must_use]
     pub fn following_from(found: &Summary, cell: Cell, arithmetic: Arithmetic) -> Self {
-        let derived = derived(cell.leaf);
-        let conditioned = found.conditioned.error;
+        let largest = found.conditioned.error;
+        let (figure, room) = match arithmetic {
+            Arithmetic::Plain => (None, ROOM_OF_PLAIN),
+            Arithmetic::Robust | Arithmetic::Double => (Figure::of(cell.leaf).bound(largest), ROOM),
+        };
         Self {
             wrong: rounded_up((ROOM * found.wrong_share).max(1.0 / PART as f64)).min(1.0),
             p99: rounded_up(ROOM * found.p99.max(1.0)),
-            most: rounded_up(ROOM * found.most.error.max(1.0)),
-            conditioned: if arithmetic != Arithmetic::Plain && conditioned <= derived {
-                derived
-            } else {
-                rounded_up(ROOM * conditioned)
-            },
+            most: rounded_up(room * found.most.error.max(1.0)),
+            conditioned: figure.unwrap_or_else(|| rounded_up(room * largest)),
         }
     }
 
@@ -212,15 +234,19 @@ pub fn verdict(cell: Cell, record: &Record) -> Vec<String> {
     judged.collect()
 }
 
-/// For each arithmetic, up to where errors need no condition to be known for certain to be allowed.
+/// For each arithmetic, up to where errors are allowed whatever they are exactly.
 #[must_use]
-pub fn floors(cell: Cell) -> [f64; 3] {
-    Arithmetic::ALL.map(|arithmetic| allowed(cell, arithmetic).map_or(0.0, |allowed| allowed.conditioned / ROOM))
+pub fn floors(cell: Cell) -> [Floor; 3] {
+    let certain = |allowed: Allowed| Floor {
+        most: allowed.most / ROOM,
+        conditioned: allowed.conditioned / ROOM,
+    };
+    Arithmetic::ALL.map(|arithmetic| allowed(cell, arithmetic).map(certain).unwrap_or_default())
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{Allowed, Arithmetic, Cell, Summary, Worst, rounded_up};
+    use super::{Allowed, Arithmetic, Cell, Figure, Summary, Worst, rounded_up};
     use crate::accuracy::Corpus;
 
     const FOUND: Summary = Summary {
@@ -270,7 +296,8 @@ mod tests {
             conditioned: 3.5,
         };
         assert_eq!(bounds(&FOUND, Arithmetic::Robust), expected);
-        assert_eq!(bounds(&FOUND, Arithmetic::Plain).conditioned, 10.0);
+        let plain = bounds(&FOUND, Arithmetic::Plain);
+        assert_eq!((plain.most, plain.conditioned), (160.0, 40.0));
         let mut worse = FOUND;
         worse.conditioned.error = 3.6;
         assert_eq!(bounds(&worse, Arithmetic::Double).conditioned, 15.0);
@@ -282,6 +309,13 @@ mod tests {
             Arithmetic::Robust,
         );
         assert_eq!((none.wrong, none.p99, none.most, none.conditioned), (3.1e-5, 4.0, 4.0, 3.5));
+    }
+
+    #[test]
+    fn a_figure_that_is_expected_needs_room() {
+        assert_eq!(Figure::Counted(3.5).bound(3.5), Some(3.5));
+        assert_eq!(Figure::Expected(4.5).bound(2.25), Some(4.5));
+        assert_eq!(Figure::Expected(4.5).bound(2.26), None);
     }
 
     #[test]

@@ -1,0 +1,241 @@
+//! The ways to find where a ray meets a scene.
+
+use super::scene::{Primitive, Scene};
+use anyhow::Result;
+use core::fmt;
+use gsdf_nostd::{Bounded, CertifiedScratch, Lane, Plain, Program, Ray, Real, Span, SphereTracer};
+use gsdf_simd::{Double, Fast, LaneMask, Lanes, Level, MOST_LANES, Packet, Robust, Tier, Work, certificate_of};
+
+/// How much is spent on accuracy.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Method {
+    /// Textbook formulas in `f32`.
+    Fast,
+    /// Robust formulas in `f32`.
+    Robust,
+    /// Robust formulas in `f64`.
+    Double,
+    /// Robust formulas in `f32` with bounds on their errors, and `f64` where these leave a doubt.
+    Certified,
+    /// Sphere tracing.
+    Traced(SphereTracer),
+}
+
+/// A method, along one ray at a time or along packets.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Contender {
+    /// The method.
+    pub method: Method,
+    /// Where packets are computed; [`None`] for single rays.
+    pub level: Option<Level>,
+}
+
+/// What a ray meets.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Seen {
+    /// The ray's parameter, infinite where it meets nothing.
+    pub t: f32,
+    /// The number of the leaf, where the method tells.
+    pub leaf: Option<u32>,
+}
+
+const NOTHING: Seen = Seen {
+    t: f32::INFINITY,
+    leaf: None,
+};
+
+/// The distances to the surface, relative to that to the eye, at which tracers stop.
+const EPSILONS: [f32; 4] = [1e-2, 1e-3, 1e-4, 1e-5];
+
+/// After how many steps tracers give up.
+const STEPS: [u32; 2] = [64, 512];
+
+impl Contender {
+    /// All of them: tiers and tracers, single rays and packets.
+    pub fn all(level: Level) -> impl Iterator<Item = Self> {
+        let tiers = [Method::Fast, Method::Robust, Method::Double, Method::Certified].into_iter();
+        let tracers = EPSILONS.into_iter().flat_map(|epsilon| {
+            STEPS.into_iter().map(move |max_steps| {
+                Method::Traced(SphereTracer {
+                    epsilon,
+                    max_steps,
+                    ..SphereTracer::default()
+                })
+            })
+        });
+        let both = move |method| [None, Some(level)].map(|level| Self { method, level });
+        tiers.chain(tracers).flat_map(both)
+    }
+
+    /// Whether it is a tracer.
+    #[must_use]
+    pub fn is_traced(&self) -> bool {
+        matches!(self.method, Method::Traced(_))
+    }
+
+    /// Casts all rays of a scene.
+    ///
+    /// # Errors
+    /// Where the scene is none, which reference scenes are not.
+    pub fn cast(&self, scene: &Scene, seen: &mut Vec<Seen>) -> Result<()> {
+        let program = scene.program()?;
+        seen.clear();
+        seen.reserve(scene.rays.len());
+        let job = Job {
+            method: self.method,
+            program,
+            rays: &scene.rays,
+            seen,
+        };
+        match self.level {
+            Some(level) => level.run(job),
+            None => job.one_by_one(),
+        }
+    }
+}
+
+impl fmt::Display for Contender {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.method {
+            Method::Fast => write!(f, "fast")?,
+            Method::Robust => write!(f, "robust")?,
+            Method::Double => write!(f, "f64")?,
+            Method::Certified => write!(f, "certified")?,
+            Method::Traced(tracer) => write!(f, "traced {:e} {}", tracer.epsilon, tracer.max_steps)?,
+        }
+        match self.level {
+            Some(level) => write!(f, ", {level}"),
+            None => write!(f, ", scalar"),
+        }
+    }
+}
+
+struct Job<'a> {
+    method: Method,
+    program: Program<'a, Primitive>,
+    rays: &'a [Ray],
+    seen: &'a mut Vec<Seen>,
+}
+
+/// How far tracers go: to the end of the scenes, and some.
+const FAR: f32 = 200.0;
+
+impl Job<'_> {
+    fn one_by_one(self) -> Result<()> {
+        match self.method {
+            Method::Fast => self.along(Plain(0.0_f32)),
+            Method::Robust => self.along(0.0_f32),
+            Method::Double => self.along(0.0_f64),
+            Method::Certified => {
+                let leaves = self.program.leaves();
+                let mut single = vec![Span::empty_like(Bounded::exact(0.0)); leaves];
+                let mut double = vec![Span::empty_like(Bounded::exact(0.0)); leaves];
+                let mut tie = vec![Span::empty_like(0.0); leaves];
+                for ray in self.rays {
+                    let scratch = CertifiedScratch {
+                        single: &mut single,
+                        double: &mut double,
+                        tie: &mut tie,
+                    };
+                    let found = self.program.cast_certified(ray, scratch)?;
+                    self.seen.push(found.hit.map_or(NOTHING, |hit| Seen {
+                        t: hit.t,
+                        leaf: Some(hit.leaf),
+                    }));
+                }
+                Ok(())
+            }
+            Method::Traced(tracer) => {
+                for ray in self.rays {
+                    let traced = tracer.cast(&self.program, &ray.within(0.0..FAR)?);
+                    let t = if traced.hit { traced.t } else { f32::INFINITY };
+                    self.seen.push(Seen { t, leaf: None });
+                }
+                Ok(())
+            }
+        }
+    }
+
+    fn along<T: Lane>(self, like: T) -> Result<()> {
+        let mut spans = vec![Span::empty_like(like); self.program.leaves()];
+        for ray in self.rays {
+            let hit = self.program.along(*ray, &mut spans)?.cast();
+            self.seen.push(hit.map_or(NOTHING, |hit| Seen {
+                t: hit.t,
+                leaf: Some(hit.leaf),
+            }));
+        }
+        Ok(())
+    }
+}
+
+impl Work for Job<'_> {
+    type Output = Result<()>;
+
+    fn run<T: Lanes>(self, token: T::Token) -> Result<()> {
+        match self.method {
+            Method::Fast => T::vectorize(token, #[inline(always)] || self.packets::<T, Fast>(token)),
+            Method::Robust => T::vectorize(token, #[inline(always)] || self.packets::<T, Robust>(token)),
+            Method::Double => T::vectorize(token, #[inline(always)] || self.packets::<T, Double>(token)),
+            Method::Certified => T::vectorize(token, #[inline(always)] || self.certified::<T>(token)),
+            Method::Traced(tracer) => T::vectorize(token, #[inline(always)] || self.traced::<T>(token, &tracer)),
+        }
+    }
+}
+
+impl Job<'_> {
+    #[inline(always)]
+    fn packets<T: Lanes, A: Tier>(self, token: T::Token) -> Result<()> {
+        let zero = A::widened(T::splat(token, 0.0));
+        let mut spans = vec![Span::empty_like(zero); self.program.leaves()];
+        for rays in self.rays.chunks(T::LANES) {
+            let hits = Packet::<T>::of(token, rays).cast_as::<A, _>(token, &self.program, &mut spans)?;
+            let (mut t, mut leaf) = ([0.0; MOST_LANES], [0; MOST_LANES]);
+            hits.t.store(&mut t);
+            T::select(hits.hit, hits.met.leaf, T::splat(token, f32::INFINITY)).store_numbers(&mut leaf);
+            let lanes = t.into_iter().zip(leaf).take(rays.len());
+            self.seen.extend(lanes.map(|(t, leaf)| Seen { t, leaf: Some(leaf) }));
+        }
+        Ok(())
+    }
+
+    #[inline(always)]
+    fn certified<T: Lanes>(self, token: T::Token) -> Result<()> {
+        let leaves = self.program.leaves();
+        let mut spans = vec![Span::empty_like(Bounded::exact(T::splat(token, 0.0))); leaves];
+        let mut double = vec![Span::empty_like(Bounded::exact(0.0)); leaves];
+        let mut tie = vec![Span::empty_like(0.0); leaves];
+        for rays in self.rays.chunks(T::LANES) {
+            let found = Packet::<T>::of(token, rays).certify(&self.program, &mut spans)?;
+            for (lane, ray) in rays.iter().enumerate() {
+                let Some(one) = certificate_of(&found, lane) else { continue };
+                let hit = self.program.settle(ray, &one, &mut double, &mut tie)?.hit;
+                self.seen.push(hit.map_or(NOTHING, |hit| Seen {
+                    t: hit.t,
+                    leaf: Some(hit.leaf),
+                }));
+            }
+        }
+        Ok(())
+    }
+
+    #[inline(always)]
+    fn traced<T: Lanes>(self, token: T::Token, tracer: &SphereTracer) -> Result<()> {
+        let mut within = Vec::with_capacity(MOST_LANES);
+        for rays in self.rays.chunks(T::LANES) {
+            within.clear();
+            for ray in rays {
+                within.push(ray.within(0.0..FAR)?);
+            }
+            let traced = Packet::<T>::of(token, &within).trace(tracer, &self.program);
+            let (mut t, hit) = ([0.0; MOST_LANES], traced.hit.to_bits());
+            traced.t.store(&mut t);
+            let lanes = t.into_iter().enumerate().take(rays.len());
+            self.seen.extend(lanes.map(|(lane, t)| Seen {
+                t: if hit >> lane & 1 == 1 { t } else { f32::INFINITY },
+                leaf: None,
+            }));
+        }
+        Ok(())
+    }
+}

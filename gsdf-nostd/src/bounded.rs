@@ -1,0 +1,362 @@
+//! Numbers that know how wrong they may be, as an arithmetic.
+
+use crate::real::{Mask, Real};
+use core::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
+
+/// A number somewhere within `error` of `value`: any formula computed in this arithmetic bounds its own rounding errors.
+///
+/// The values are those of `T`, bit for bit, wherever a formula's decisions are certain. Beside each goes a bound on how far
+/// it may be from what the same formula gives in exact arithmetic (J. H. Wilkinson's running error analysis, The State of the
+/// Art in Error Analysis, 1985): a sum adds what it really lost (D. Knuth's two-sum), a product half a unit in its last
+/// place. Comparisons know whether the bounds leave room for the other outcome ([`Judged`]).
+///
+/// What a ray meets is computed from such numbers by [`Program::certify`](crate::Program::certify).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Bounded<T> {
+    /// The number as `T` has it.
+    pub value: T,
+    /// By how much it may be off, but for [`SLACK`]; infinite or NaN where nothing is known.
+    pub error: T,
+}
+
+/// The outcome of a comparison, and whether it is certain.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Judged<M> {
+    /// The outcome for the values.
+    pub yes: M,
+    /// Whether it is that for all numbers they may stand for.
+    pub sure: M,
+}
+
+/// What bounds are multiplied by where they are used: they are sums and products of positive numbers, rounded a few hundred
+/// times at the most.
+pub const SLACK: f32 = 1.0 + 1.0 / 1024.0;
+
+impl<M: Mask> Judged<M> {
+    fn exactly(yes: M) -> Self {
+        Self {
+            yes,
+            sure: yes.splat_like(true),
+        }
+    }
+}
+
+impl<M: Mask> BitAnd for Judged<M> {
+    type Output = Self;
+
+    #[inline(always)]
+    fn bitand(self, other: Self) -> Self {
+        Self {
+            yes: self.yes & other.yes,
+            sure: (self.sure & other.sure) | (self.sure & !self.yes) | (other.sure & !other.yes),
+        }
+    }
+}
+
+impl<M: Mask> BitOr for Judged<M> {
+    type Output = Self;
+
+    #[inline(always)]
+    fn bitor(self, other: Self) -> Self {
+        Self {
+            yes: self.yes | other.yes,
+            sure: (self.sure & other.sure) | (self.sure & self.yes) | (other.sure & other.yes),
+        }
+    }
+}
+
+impl<M: Mask> Not for Judged<M> {
+    type Output = Self;
+
+    #[inline(always)]
+    fn not(self) -> Self {
+        Self {
+            yes: !self.yes,
+            sure: self.sure,
+        }
+    }
+}
+
+impl<M: Mask> Mask for Judged<M> {
+    /// Whether some lane may be true.
+    #[inline(always)]
+    fn any(self) -> bool {
+        (self.yes | !self.sure).any()
+    }
+    /// Whether every lane is true for certain.
+    #[inline(always)]
+    fn all(self) -> bool {
+        (self.yes & self.sure).all()
+    }
+    #[inline(always)]
+    fn splat_like(self, value: bool) -> Self {
+        Self::exactly(self.yes.splat_like(value))
+    }
+    #[inline(always)]
+    fn certain(self) -> Self {
+        Self::exactly(self.sure)
+    }
+}
+
+impl<T: Real> Bounded<T> {
+    /// A number that is exactly what it says.
+    #[inline(always)]
+    pub fn exact(value: T) -> Self {
+        Self {
+            value,
+            error: value.splat_like(0.0),
+        }
+    }
+
+    /// The least number it may be, and the greatest.
+    #[inline(always)]
+    pub fn ends(self) -> (T, T) {
+        let reach = self.reach();
+        // A rounding of the ends themselves must not take them inward.
+        let outward = (self.value.abs() + reach) * reach.splat_like(4.0 * T::ROUNDOFF);
+        let reach = T::select(reach.eq(reach.splat_like(0.0)), reach, reach + outward);
+        (self.value - reach, self.value + reach)
+    }
+
+    /// The bound, with all that was lost in computing it.
+    #[inline(always)]
+    fn reach(self) -> T {
+        self.error * self.error.splat_like(SLACK)
+    }
+
+    #[inline(always)]
+    fn is_exact(self) -> T::Mask {
+        self.error.eq(self.error.splat_like(0.0))
+    }
+
+    /// Whether it is zero, exactly.
+    #[inline(always)]
+    fn is_nothing(self) -> T::Mask {
+        (self.value.abs() + self.error).eq(self.error.splat_like(0.0))
+    }
+
+    /// A value that was computed from operands which are off by `inherited`, with what rounding added to it.
+    #[inline(always)]
+    fn rounded(value: T, inherited: T, rounding: T) -> Self {
+        let zero = value.splat_like(0.0);
+        let finite = value.abs().lt(zero.splat_like(f32::INFINITY));
+        // What is infinite, or no number, without a rounding before is so exactly.
+        let beyond = T::select(inherited.eq(zero), zero, zero.splat_like(f32::INFINITY));
+        Self {
+            value,
+            error: T::select(finite, inherited + rounding, beyond),
+        }
+    }
+
+    /// What half a unit in the last place is, at the most.
+    #[inline(always)]
+    fn half_ulp(value: T) -> T {
+        value.abs() * value.splat_like(T::ROUNDOFF)
+    }
+
+    /// How the two compare, where the outcome for the values is `yes`.
+    #[inline(always)]
+    fn judged(self, other: Self, yes: T::Mask) -> Judged<T::Mask> {
+        let apart = (self.value - other.value).abs();
+        let reach = (self.error + other.error) * self.error.splat_like(SLACK);
+        Judged {
+            yes,
+            sure: reach.lt(apart) | reach.eq(reach.splat_like(0.0)),
+        }
+    }
+}
+
+impl<T: Real> Add for Bounded<T> {
+    type Output = Self;
+
+    #[inline(always)]
+    fn add(self, other: Self) -> Self {
+        let (a, b) = (self.value, other.value);
+        let value = a + b;
+        let (a_part, b_part) = (value - b, value - (value - b));
+        let lost = ((a - a_part) + (b - b_part)).abs();
+        Self::rounded(value, self.error + other.error, lost)
+    }
+}
+
+impl<T: Real> Sub for Bounded<T> {
+    type Output = Self;
+
+    #[inline(always)]
+    fn sub(self, other: Self) -> Self {
+        let (a, b) = (self.value, other.value);
+        let value = a - b;
+        let (a_part, b_part) = (value + b, (value + b) - value);
+        let lost = ((a - a_part) + (b_part - b)).abs();
+        Self::rounded(value, self.error + other.error, lost)
+    }
+}
+
+impl<T: Real> Mul for Bounded<T> {
+    type Output = Self;
+
+    #[inline(always)]
+    fn mul(self, other: Self) -> Self {
+        let zero = self.value.splat_like(0.0);
+        let value = self.value * other.value;
+        let inherited = self.value.abs() * other.error + (other.value.abs() + other.error) * self.error;
+        let exact = self.is_exact() & other.is_exact();
+        let nothing = self.is_nothing() | other.is_nothing();
+        // What underflows is lost to the least normal number.
+        let rounding = Self::half_ulp(value) + zero.splat_like(f32::MIN_POSITIVE);
+        Self::rounded(
+            value,
+            T::select(exact | nothing, zero, inherited),
+            T::select(nothing, zero, rounding),
+        )
+    }
+}
+
+impl<T: Real> Div for Bounded<T> {
+    type Output = Self;
+
+    #[inline(always)]
+    fn div(self, other: Self) -> Self {
+        let zero = self.value.splat_like(0.0);
+        let value = self.value / other.value;
+        let least = other.value.abs() - other.reach();
+        let inherited = (self.error + value.abs() * other.error) / least;
+        let inherited = T::select(zero.lt(least), inherited, zero.splat_like(f32::INFINITY));
+        let exact = self.is_exact() & other.is_exact();
+        let rounding = Self::half_ulp(value) + zero.splat_like(f32::MIN_POSITIVE);
+        Self::rounded(
+            value,
+            T::select(exact, zero, inherited),
+            T::select(self.is_nothing(), zero, rounding),
+        )
+    }
+}
+
+impl<T: Real> Neg for Bounded<T> {
+    type Output = Self;
+
+    #[inline(always)]
+    fn neg(self) -> Self {
+        Self {
+            value: -self.value,
+            error: self.error,
+        }
+    }
+}
+
+impl<T: Real> Real for Bounded<T> {
+    type Mask = Judged<T::Mask>;
+    const LANES: usize = T::LANES;
+    const ROBUST: bool = T::ROBUST;
+    const ROUNDOFF: f32 = T::ROUNDOFF;
+    const INLINED: bool = T::INLINED;
+    type Scalar = Bounded<T::Scalar>;
+
+    #[inline(always)]
+    fn splat_like(self, value: f32) -> Self {
+        Self::exact(self.value.splat_like(value))
+    }
+    #[inline(always)]
+    fn lift_like(self, value: Self::Scalar) -> Self {
+        Self {
+            value: self.value.lift_like(value.value),
+            error: self.value.lift_like(value.error),
+        }
+    }
+    /// Of a number that may be negative, but need not be, the root of what it is at the most is within the bound.
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        let zero = self.value.splat_like(0.0);
+        let negative = self.value.lt(zero);
+        let most = (self.value + self.reach()).max(zero).sqrt();
+        let value = T::select(negative & zero.lt(most), zero, self.value.sqrt());
+        // `sqrt(x) - sqrt(x - e)` is at most `e / sqrt(x)`.
+        let inherited = T::select(self.reach().lt(self.value), self.error / value, value + most);
+        let inherited = T::select(self.is_exact(), zero, inherited);
+        Self::rounded(value, inherited, Self::half_ulp(value))
+    }
+    #[inline(always)]
+    fn abs(self) -> Self {
+        Self {
+            value: self.value.abs(),
+            error: self.error,
+        }
+    }
+    #[inline(always)]
+    fn copysign(self, sign: Self) -> Self {
+        let magnitude = self.value.abs();
+        let sure = sign.is_exact() | sign.reach().lt(sign.value.abs());
+        Self {
+            value: self.value.copysign(sign.value),
+            error: T::select(sure, self.error, self.error + (magnitude + magnitude)),
+        }
+    }
+    #[inline(always)]
+    fn next_up(self) -> Self {
+        let value = self.value.next_up();
+        Self {
+            value,
+            error: self.error + (value - self.value),
+        }
+    }
+    #[inline(always)]
+    fn lt(self, other: Self) -> Self::Mask {
+        self.judged(other, self.value.lt(other.value))
+    }
+    #[inline(always)]
+    fn le(self, other: Self) -> Self::Mask {
+        self.judged(other, self.value.le(other.value))
+    }
+    #[inline(always)]
+    fn eq(self, other: Self) -> Self::Mask {
+        self.judged(other, self.value.eq(other.value))
+    }
+    /// Where the mask is not certain: a number whose bound holds for either choice.
+    #[inline(always)]
+    fn select(mask: Self::Mask, yes: Self, no: Self) -> Self {
+        let value = T::select(mask.yes, yes.value, no.value);
+        let same = yes.value.eq(no.value);
+        let apart = T::select(same, value.splat_like(0.0), (yes.value - no.value).abs());
+        Self {
+            value,
+            error: T::select(mask.sure, T::select(mask.yes, yes.error, no.error), apart + (yes.error + no.error)),
+        }
+    }
+    #[inline(always)]
+    fn times_power(self, power: Self) -> Self {
+        Self {
+            value: self.value * power.value,
+            error: self.error * power.value.abs(),
+        }
+    }
+    #[inline(always)]
+    fn given(self) -> Self {
+        Self::exact(self.value)
+    }
+    #[inline(always)]
+    fn doubt(self) -> Self {
+        Self::exact(self.reach())
+    }
+    #[inline(always)]
+    fn off_by(self, doubt: Self) -> Self {
+        Self {
+            value: self.value,
+            error: self.error + (doubt.value.abs() + doubt.error),
+        }
+    }
+    /// Where it is not certain whether the span is inhabited its ends stand as if it were, and reach to each other.
+    #[inline(always)]
+    fn ends_where(inhabited: Self::Mask, enter: Self, exit: Self) -> (Self, Self) {
+        let value = enter.value;
+        let apart = (exit.value - value).abs();
+        let doubtful = |end: Self, empty: f32| Self {
+            value: T::select(inhabited.yes | !inhabited.sure, end.value, value.splat_like(empty)),
+            error: T::select(
+                inhabited.sure,
+                T::select(inhabited.yes, end.error, value.splat_like(0.0)),
+                apart + (enter.error + exit.error),
+            ),
+        };
+        (doubtful(enter, f32::INFINITY), doubtful(exit, f32::NEG_INFINITY))
+    }
+}

@@ -1,0 +1,106 @@
+//! What is certified is so, and what can be certified is.
+
+use gsdf_nostd::{Bounded, CertifiedScratch, Settled, Span};
+use gsdf_tests::accuracy::{Cell, Certainty, Corpus, PART};
+use gsdf_tests::shape::KINDS;
+use gsdf_workload::scenes::{S1, S2, S3, S4, S5, Scene};
+
+/// No certificate is wrong in ten million rays, the hardest among them; and of rays that are not meant to be hard all are
+/// certain.
+#[test]
+fn no_certificate_is_wrong_and_few_are_missing() {
+    let (mut all, mut wrong) = (Certainty::default(), Vec::new());
+    for cell in Cell::all() {
+        let (name, corpus) = (KINDS[cell.leaf], cell.corpus.name());
+        let found = cell.certainty(0..PART);
+        println!("{name:16} {corpus:16} {:.4} {found:?}", found.share());
+        if let Some(ray) = found.wrong {
+            wrong.push(format!("--leaf '{name}' --corpus {corpus} --replay {ray}"));
+        }
+        let least = least_share(cell);
+        assert!(found.share() >= least, "{name} {corpus}: {} of the hits, not {least}", found.share());
+        all = all.joined(found);
+    }
+    println!("{all:?}");
+    assert!(wrong.is_empty(), "{} cells:\n{}", wrong.len(), wrong.join("\n"));
+    assert!(all.hits + all.misses >= 9_900_000, "{all:?}");
+}
+
+/// The share of hits that `f32` must be certain of. Facets have no inside to be certain of.
+fn least_share(cell: Cell) -> f64 {
+    if ["triangle", "quad"].contains(&KINDS[cell.leaf]) {
+        return 0.0;
+    }
+    match cell.corpus {
+        Corpus::Moderate | Corpus::Lengths => 0.999,
+        Corpus::Angles | Corpus::Units | Corpus::Limits => 0.99,
+        Corpus::Inside => 0.9,
+        // To ten million radii, where `f32` itself is off by half a radius.
+        Corpus::Far => 0.45,
+        Corpus::Tiny => 0.6,
+        _ => 0.0,
+    }
+}
+
+/// What became of the rays of a picture.
+#[derive(Clone, Copy, Debug, Default)]
+struct Picture {
+    hits: u32,
+    single: u32,
+    rounded: u32,
+    others: u32,
+    leaves_differ: u32,
+}
+
+/// Casts a ray through the middle of every `step`th pixel in each direction.
+fn looked_at(scene: &Scene, step: u32) -> Picture {
+    let leaves = scene.program.leaves();
+    let (mut single, mut double) = (
+        vec![Span::empty_like(Bounded::exact(0.0)); leaves],
+        vec![Span::empty_like(Bounded::exact(0.0)); leaves],
+    );
+    let (mut tie, mut robust) = (vec![Span::empty_like(0.0); leaves], vec![Span::empty_like(0.0); leaves]);
+    let camera = scene.camera().unwrap();
+    let raster = camera.raster(1024, 1024);
+    let mut picture = Picture::default();
+    for (x, y) in (0..1024).step_by(step as usize).flat_map(|y| (0..1024).step_by(step as usize).map(move |x| (x, y))) {
+        let ray = raster.ray(x, y).unwrap();
+        let scratch = CertifiedScratch {
+            single: &mut single,
+            double: &mut double,
+            tie: &mut tie,
+        };
+        let found = scene.program.cast_certified(&ray, scratch).unwrap();
+        let plainly = scene.program.along(ray, &mut robust).unwrap().cast();
+        picture.others += u32::from(found.settled == Settled::Tie);
+        let Some(hit) = found.hit else {
+            picture.leaves_differ += u32::from(plainly.is_some() && found.settled == Settled::Single);
+            continue;
+        };
+        picture.hits += 1;
+        picture.single += u32::from(found.settled == Settled::Single);
+        picture.rounded += u32::from(found.bound <= (hit.t.next_up() - hit.t) * 0.500_01);
+        if found.settled == Settled::Single {
+            let same = plainly.is_some_and(|plainly| {
+                let is_near = (plainly.t - hit.t).abs() <= 1e-5 * hit.t && plainly.normal.dot(hit.normal) > 0.999;
+                (plainly.leaf, plainly.face, plainly.entering) == (hit.leaf, hit.face, hit.entering) && is_near
+            });
+            picture.leaves_differ += u32::from(!same);
+        }
+    }
+    picture
+}
+
+/// On the reference scenes almost nothing needs more than `f32` to be certain, what is certain is what a robust cast says, and
+/// distances are rounded correctly.
+#[test]
+fn reference_scenes_are_certain() {
+    for (scene, step) in [(&S1, 3), (&S2, 3), (&S3, 6), (&S4, 24), (&S5, 16)] {
+        let seen = looked_at(scene, step);
+        println!("{}: {seen:?}", scene.name);
+        assert!(seen.hits > 500, "{seen:?}");
+        assert!(f64::from(seen.single) >= 0.999 * f64::from(seen.hits), "{}: {seen:?}", scene.name);
+        assert!(f64::from(seen.rounded) >= 0.99 * f64::from(seen.hits), "{}: {seen:?}", scene.name);
+        assert_eq!(seen.leaves_differ, 0, "{}: {seen:?}", scene.name);
+    }
+}
