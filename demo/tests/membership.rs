@@ -12,11 +12,24 @@ type Matrix = [[f64; 4]; 3];
 /// What is printed.
 #[derive(Clone, Debug)]
 enum Tree {
-    Cube { size: Point, center: bool },
-    Sphere { radius: f64 },
-    Cylinder { height: f64, lower: f64, upper: f64, center: bool, sides: u32 },
+    Cube {
+        size: Point,
+        center: bool,
+    },
+    Sphere {
+        radius: f64,
+    },
+    Cylinder {
+        height: f64,
+        lower: f64,
+        upper: f64,
+        center: bool,
+        sides: u32,
+    },
     /// The box as a polyhedron.
-    Polyhedron { size: Point },
+    Polyhedron {
+        size: Point,
+    },
     Moved(Matrix, Vec<Tree>),
     Joined(&'static str, Vec<Tree>),
     /// What counts for nothing, with the modifier that says so.
@@ -106,7 +119,11 @@ impl Tree {
                     "intersection" => {
                         let held: Vec<_> = held.collect();
                         // Nothing at all has no common part.
-                        if held.is_empty() { Some(false) } else { not(any(held.into_iter().map(not))) }
+                        if held.is_empty() {
+                            Some(false)
+                        } else {
+                            not(any(held.into_iter().map(not)))
+                        }
                     }
                     "difference" => {
                         let first = held.next().unwrap_or(Some(false));
@@ -152,7 +169,9 @@ fn undone(matrix: Matrix, point: Point) -> Point {
         .map(|row| [matrix[row][0], matrix[row][1], matrix[row][2], point[row] - matrix[row][3]])
         .collect();
     for column in 0..3 {
-        let pivot = (column..3).max_by(|a, b| rows[*a][column].abs().total_cmp(&rows[*b][column].abs())).expect("there is a row");
+        let pivot = (column..3)
+            .max_by(|a, b| rows[*a][column].abs().total_cmp(&rows[*b][column].abs()))
+            .expect("there is a row");
         rows.swap(column, pivot);
         for row in 0..3 {
             if row != column {
@@ -186,7 +205,7 @@ fn solid() -> impl Strategy<Value = Tree> {
 }
 
 fn any_bool() -> impl Strategy<Value = bool> {
-    any::<bool>()
+    proptest::bool::ANY
 }
 
 fn matrix() -> impl Strategy<Value = Matrix> {
@@ -217,9 +236,8 @@ fn matrix() -> impl Strategy<Value = Matrix> {
         1 => [0.5..2.0_f64, 0.5..2.0, 0.5..2.0].prop_map(|[x, y, z]| [[x, 0.0, 0.0], [0.0, -y, 0.0], [0.0, 0.0, z]]),
         1 => (-0.7..0.7_f64).prop_map(|by| [[1.0, by, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]),
     ];
-    (part, [shift(), shift(), shift()]).prop_map(|(rows, shifts)| {
-        std::array::from_fn(|row| [rows[row][0], rows[row][1], rows[row][2], shifts[row]])
-    })
+    (part, [shift(), shift(), shift()])
+        .prop_map(|(rows, shifts)| std::array::from_fn(|row| [rows[row][0], rows[row][1], rows[row][2], shifts[row]]))
 }
 
 fn tree() -> impl Strategy<Value = Tree> {

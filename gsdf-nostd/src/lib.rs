@@ -129,6 +129,9 @@ pub use csg::{
     Anywhere, Attribution, Crossing, Crossings, Csg, Departure, Draft, Encounter, Footing, Hit, March, Node, OnSurface, Program,
     ProgramError, SeenFrom, Sight, Start, attribute, march, sweep,
 };
+/// The vectors and matrices in this crate's interface are those of this crate.
+#[doc(no_inline)]
+pub use glam;
 pub use invalid::{Fault, Invalid};
 pub use leaf::{
     Bounds, CappedCone, CappedCylinder, Capsule, Cone, Cuboid, Cylinder, Ground, HalfSpace, HexagonalPrism, Leaf, Nappe, Octahedron,

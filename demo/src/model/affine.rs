@@ -18,7 +18,9 @@ const CANCELLED: f64 = 1e-13;
 /// A sum of products, and zero where its terms cancel but for their rounding: a face that is moved away and back is where
 /// it was.
 fn sum_of_products<const N: usize>(pairs: [(f64, f64); N]) -> f64 {
-    let (sum, size) = pairs.iter().fold((0.0, 0.0), |(sum, size): (f64, f64), (a, b)| (sum + a * b, size + (a * b).abs()));
+    let (sum, size) = pairs
+        .iter()
+        .fold((0.0, 0.0), |(sum, size): (f64, f64), (a, b)| (sum + a * b, size + (a * b).abs()));
     // The negative zero, too, becomes zero.
     if sum.abs() <= CANCELLED * size { 0.0 } else { sum }
 }
@@ -253,7 +255,9 @@ mod tests {
 
     #[test]
     fn inverses_undo() {
-        let map = moved([1.0, -2.0, 0.5]).after(&turned(30.0)).after(&Affine::scaling([2.0, -3.0, 0.25]));
+        let map = moved([1.0, -2.0, 0.5])
+            .after(&turned(30.0))
+            .after(&Affine::scaling([2.0, -3.0, 0.25]));
         let point = [0.3, 0.7, -1.1];
         assert!(is_near(map.inverse().point(map.point(point)), point));
         assert!((map.determinant() + 1.5).abs() < 1e-12);

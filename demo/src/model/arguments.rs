@@ -109,7 +109,10 @@ impl<'s, 't> Arguments<'s, 't> {
     /// Where it is missing or something else.
     pub fn points(&self, name: &str) -> Result<Vec<Vector>, Fault> {
         let (at, items) = self.list(name, "points: vectors of three numbers")?;
-        items.iter().map(|point| vector(at, point, "a point is three numbers in brackets")).collect()
+        items
+            .iter()
+            .map(|point| vector(at, point, "a point is three numbers in brackets"))
+            .collect()
     }
 
     /// A list of lists of numbers of points, of which there are so many.
@@ -120,7 +123,11 @@ impl<'s, 't> Arguments<'s, 't> {
         let (at, items) = self.list(name, "faces: vectors of numbers of points")?;
         let number = |value: &Value<'_>| match value {
             Value::Number(number) if number.fract() == 0.0 && (0.0..points as f64).contains(number) => Ok(*number as usize),
-            other => Err(refused(at, other, &format!("there are points from 0 to {}", points.saturating_sub(1)))),
+            other => Err(refused(
+                at,
+                other,
+                &format!("there are points from 0 to {}", points.saturating_sub(1)),
+            )),
         };
         let face = |value: &Value<'_>| match value {
             Value::Vector(numbers) if numbers.len() >= 3 => numbers.iter().map(number).collect(),

@@ -29,7 +29,11 @@ impl Reach {
             (Self::Endless, reach) | (reach, Self::Endless) => reach,
             (Self::Within(a), Self::Within(b)) => {
                 let (min, max) = (a.min.max(b.min), a.max.min(b.max));
-                if min.cmplt(max).all() { Self::Within(Bounds { min, max }) } else { Self::Empty }
+                if min.cmplt(max).all() {
+                    Self::Within(Bounds { min, max })
+                } else {
+                    Self::Empty
+                }
             }
             _ => Self::Empty,
         }
@@ -74,7 +78,13 @@ impl Model {
 /// The box around a box in a frame.
 fn posed(bounds: Bounds, frame: &Mat3) -> Bounds {
     let corner = |number: usize| {
-        let side = |axis: usize| if number >> axis & 1 == 0 { bounds.min[axis] } else { bounds.max[axis] };
+        let side = |axis: usize| {
+            if number >> axis & 1 == 0 {
+                bounds.min[axis]
+            } else {
+                bounds.max[axis]
+            }
+        };
         *frame * Vec3::new(side(0), side(1), side(2))
     };
     let corners = (0..8).map(corner);
@@ -103,18 +113,36 @@ mod tests {
         let Reach::Within(bounds) = reach(text) else {
             panic!("{text} has no bounds")
         };
-        assert!(bounds.min.abs_diff_eq(min, 1e-5) && bounds.max.abs_diff_eq(max, 1e-5), "{text}: {bounds:?}");
+        assert!(
+            bounds.min.abs_diff_eq(min, 1e-5) && bounds.max.abs_diff_eq(max, 1e-5),
+            "{text}: {bounds:?}"
+        );
     }
 
     #[test]
     fn bounds_are_those_of_what_is_left() {
-        assert_within("cube(2); multmatrix([[1,0,0,3],[0,1,0,0],[0,0,1,0]]) cube(1);", Vec3::ZERO, vec3(4.0, 2.0, 2.0));
+        assert_within(
+            "cube(2); multmatrix([[1,0,0,3],[0,1,0,0],[0,0,1,0]]) cube(1);",
+            Vec3::ZERO,
+            vec3(4.0, 2.0, 2.0),
+        );
         assert_within("difference() { cube(2); cube(9, true); }", Vec3::ZERO, Vec3::splat(2.0));
         assert_within("intersection() { cube(2); cube(2, true); }", Vec3::ZERO, Vec3::ONE);
         // What is cut away is heavier than what it is cut from.
-        assert_within("difference() { cube(2); union() { cube(1); sphere(1); } }", Vec3::ZERO, Vec3::splat(2.0));
-        assert_within("multmatrix([[0.6,-0.8,0,0],[0.8,0.6,0,0],[0,0,1,0]]) cube(1);", vec3(-0.8, 0.0, 0.0), vec3(0.6, 1.4, 1.0));
-        assert_eq!(reach("intersection() { cube(1); multmatrix([[1,0,0,3],[0,1,0,0],[0,0,1,0]]) cube(1); }"), Reach::Empty);
+        assert_within(
+            "difference() { cube(2); union() { cube(1); sphere(1); } }",
+            Vec3::ZERO,
+            Vec3::splat(2.0),
+        );
+        assert_within(
+            "multmatrix([[0.6,-0.8,0,0],[0.8,0.6,0,0],[0,0,1,0]]) cube(1);",
+            vec3(-0.8, 0.0, 0.0),
+            vec3(0.6, 1.4, 1.0),
+        );
+        assert_eq!(
+            reach("intersection() { cube(1); multmatrix([[1,0,0,3],[0,1,0,0],[0,0,1,0]]) cube(1); }"),
+            Reach::Empty
+        );
         assert_eq!(reach(""), Reach::Empty);
     }
 }

@@ -30,8 +30,12 @@ impl Frames {
             return Ok(*number);
         }
         let pose = Transform::affine(matrix, Vec3::ZERO).map_err(|error| ["a matrix out of range".to_owned(), error.to_string()])?;
-        let number = u16::try_from(self.poses.len() + 1)
-            .map_err(|_| ["one more turn".to_owned(), "a model may be turned in 65535 ways: leave some out".to_owned()])?;
+        let number = u16::try_from(self.poses.len() + 1).map_err(|_| {
+            [
+                "one more turn".to_owned(),
+                "a model may be turned in 65535 ways: leave some out".to_owned(),
+            ]
+        })?;
         self.numbers.insert(bits, number);
         self.matrices.push(matrix);
         self.poses.push(pose);

@@ -55,7 +55,12 @@ impl Model {
         let bytes = fs::read(path).with_context(|| format!("cannot read {}", path.display()))?;
         let text = core::str::from_utf8(&bytes).map_err(|error| {
             let good = String::from_utf8_lossy(bytes.get(..error.valid_up_to()).unwrap_or_default());
-            Fault::new(good.len(), "bytes that are no text", "a model is text in UTF-8, as OpenSCAD writes with `-o model.csg`").in_text(&good)
+            Fault::new(
+                good.len(),
+                "bytes that are no text",
+                "a model is text in UTF-8, as OpenSCAD writes with `-o model.csg`",
+            )
+            .in_text(&good)
         });
         let model = text.and_then(|text| Self::read(text, reading));
         model.map_err(|refusal| anyhow!("{}: {refusal}", path.display()))
@@ -105,7 +110,8 @@ impl Model {
     /// # Errors
     /// Where the model is empty.
     pub fn solid(&self) -> Result<Program<'_>> {
-        self.program().map_err(|_| anyhow!("the model is empty: it holds no solid that has a volume"))
+        self.program()
+            .map_err(|_| anyhow!("the model is empty: it holds no solid that has a volume"))
     }
 
     /// The nodes of the program.

@@ -47,7 +47,10 @@ pub fn convex(points: &[Vector], faces: &[Vec<usize>]) -> Result<Option<Polytope
             outlines.push((number, outline, across));
         }
     }
-    let volume: f64 = outlines.iter().map(|(_, outline, across)| dot(*across, minus(outline[0], low))).sum();
+    let volume: f64 = outlines
+        .iter()
+        .map(|(_, outline, across)| dot(*across, minus(outline[0], low)))
+        .sum();
     if volume.abs() <= COPLANAR * extent * extent * extent {
         return Ok(None);
     }
@@ -106,7 +109,10 @@ fn closed(faces: &[Vec<usize>]) -> Result<(), [String; 2]> {
         for edge in around(face) {
             if let Some(other) = edges.insert(edge, number) {
                 return Err([
-                    format!("a polyhedron whose faces {other} and {number} run the same way from point {} to {}", edge.0, edge.1),
+                    format!(
+                        "a polyhedron whose faces {other} and {number} run the same way from point {} to {}",
+                        edge.0, edge.1
+                    ),
                     "of two faces at an edge one runs forward and the other back: reverse one of them".to_owned(),
                 ]);
             }
@@ -139,7 +145,9 @@ mod tests {
 
     /// The faces of the example in OpenSCAD's manual, clockwise from outside.
     fn faces() -> Vec<Vec<usize>> {
-        [[0, 1, 2, 3], [4, 5, 1, 0], [7, 6, 5, 4], [5, 6, 2, 1], [6, 7, 3, 2], [7, 4, 0, 3]].map(Vec::from).to_vec()
+        [[0, 1, 2, 3], [4, 5, 1, 0], [7, 6, 5, 4], [5, 6, 2, 1], [6, 7, 3, 2], [7, 4, 0, 3]]
+            .map(Vec::from)
+            .to_vec()
     }
 
     fn refusal(points: &[Vector], faces: &[Vec<usize>]) -> String {
@@ -148,14 +156,20 @@ mod tests {
 
     #[test]
     fn a_box_has_six_faces_in_squares_and_in_triangles() {
-        let triangles: Vec<_> = faces().iter().flat_map(|face| [vec![face[0], face[1], face[2]], vec![face[0], face[2], face[3]]]).collect();
+        let triangles: Vec<_> = faces()
+            .iter()
+            .flat_map(|face| [vec![face[0], face[1], face[2]], vec![face[0], face[2], face[3]]])
+            .collect();
         for faces in [faces(), triangles] {
             let solid = convex(&CORNERS, &faces).expect("it is convex").expect("it has a volume");
             assert_eq!(solid.planes.len(), 6);
             let mut sides: Vec<_> = solid.planes.iter().map(|plane| (plane.axis(), plane.height)).collect();
             sides.sort_by(|a, b| a.1.total_cmp(&b.1));
             assert!(sides.iter().all(|(axis, _)| axis.is_some()));
-            assert_eq!(sides.iter().map(|(_, height)| *height).collect::<Vec<_>>(), [0.0, 0.0, 0.0, 1.0, 2.0, 3.0]);
+            assert_eq!(
+                sides.iter().map(|(_, height)| *height).collect::<Vec<_>>(),
+                [0.0, 0.0, 0.0, 1.0, 2.0, 3.0]
+            );
         }
     }
 

@@ -76,12 +76,16 @@ impl Polytope {
             for number in 0..corners {
                 let [x, y] = around(step * (f64::from(number) + 0.5));
                 let across = [x * (top - bottom), y * (top - bottom), (lower - upper) * inner];
-                turned.planes.push(Plane::through([x * lower * inner, y * lower * inner, bottom], across));
+                turned
+                    .planes
+                    .push(Plane::through([x * lower * inner, y * lower * inner, bottom], across));
             }
         }
         if let (Some([bottom, lower]), Some([top, upper])) = (rings.first(), rings.last()) {
             let caps = [(*bottom, *lower, -1.0), (*top, *upper, 1.0)].into_iter().filter(|cap| cap.1 > 0.0);
-            turned.planes.extend(caps.map(|(height, _, side)| Plane::through([0.0, 0.0, height], [0.0, 0.0, side])));
+            turned
+                .planes
+                .extend(caps.map(|(height, _, side)| Plane::through([0.0, 0.0, height], [0.0, 0.0, side])));
         }
         turned
     }
@@ -131,7 +135,10 @@ mod tests {
 
     #[test]
     fn quarter_turns_are_exact() {
-        assert_eq!([0.0, 90.0, 180.0, 270.0, 360.0].map(around), [[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0], [1.0, 0.0]]);
+        assert_eq!(
+            [0.0, 90.0, 180.0, 270.0, 360.0].map(around),
+            [[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0], [1.0, 0.0]]
+        );
         let [x, y] = around(210.0);
         assert!((x + 0.75_f64.sqrt()).abs() < 1e-15 && (y + 0.5).abs() < 1e-15);
     }

@@ -52,7 +52,13 @@ enum Step {
 fn chain(operator: Operator, operands: &[usize], heavy: &impl Fn(&usize) -> u32) -> Vec<Step> {
     let heaviest = heaviest(operands, heavy);
     let mut steps = Vec::with_capacity(2 * operands.len() + 1);
-    let others = |skipped: usize| operands.iter().enumerate().filter(move |(place, _)| *place != skipped).map(|(_, solid)| *solid);
+    let others = |skipped: usize| {
+        operands
+            .iter()
+            .enumerate()
+            .filter(move |(place, _)| *place != skipped)
+            .map(|(_, solid)| *solid)
+    };
     let node = match operator {
         Operator::Union => Node::Union,
         Operator::Intersection => Node::Intersection,

@@ -69,7 +69,12 @@ pub struct Refusal {
 
 impl fmt::Display for Refusal {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { line, column, found, wanted } = self;
+        let Self {
+            line,
+            column,
+            found,
+            wanted,
+        } = self;
         write!(f, "line {line}, column {column}: found {found}: {wanted}")
     }
 }

@@ -63,10 +63,7 @@ impl Solids {
     /// Makes leaves of round solids, or of solids with flat sides.
     #[must_use]
     pub fn new(facets: Facets) -> Self {
-        Self {
-            facets,
-            ..Self::default()
-        }
+        Self { facets, ..Self::default() }
     }
 
     /// The frames that the leaves stand in.
@@ -81,11 +78,19 @@ impl Solids {
     /// Where its arguments are none of a cube's, or the library has no such box.
     pub fn cube(&mut self, arguments: &Arguments<'_, '_>, placed: &Placement) -> Result<Vec<Piece>, Fault> {
         let size = arguments.size("size")?;
-        let low = if arguments.truth("center")? { size.map(|side| -0.5 * side) } else { [0.0; 3] };
+        let low = if arguments.truth("center")? {
+            size.map(|side| -0.5 * side)
+        } else {
+            [0.0; 3]
+        };
         if size.iter().any(|side| *side <= 0.0) {
             return Ok(Vec::new());
         }
-        let high = if arguments.truth("center")? { size.map(|side| 0.5 * side) } else { size };
+        let high = if arguments.truth("center")? {
+            size.map(|side| 0.5 * side)
+        } else {
+            size
+        };
         let ends = [placed.within.point(low), placed.within.point(high)];
         self.cuboid(ends, placed).map_err(|told| refused(arguments, told))
     }
@@ -148,7 +153,11 @@ impl Solids {
     /// # Errors
     /// Where its arguments are none of a cylinder's, or the library has no such solid.
     pub fn cylinder(&mut self, arguments: &Arguments<'_, '_>, placed: &Placement) -> Result<Vec<Piece>, Fault> {
-        let (height, lower, upper) = (arguments.number("h", 1.0)?, arguments.number("r1", 1.0)?, arguments.number("r2", 1.0)?);
+        let (height, lower, upper) = (
+            arguments.number("h", 1.0)?,
+            arguments.number("r1", 1.0)?,
+            arguments.number("r2", 1.0)?,
+        );
         let bottom = if arguments.truth("center")? { -0.5 * height } else { 0.0 };
         let facets = self.facets(arguments, lower.max(upper))?;
         if height <= 0.0 || lower < 0.0 || upper < 0.0 || lower.max(upper) <= 0.0 {
@@ -165,7 +174,11 @@ impl Solids {
     /// The round solid between two discs about the z axis, each a height and a radius.
     fn round(&mut self, [lower, upper]: [[f64; 2]; 2], placed: &Placement) -> Pieces {
         let [x, y, _] = placed.stretches();
-        let placed = if is_same(x, y) { *placed } else { placed.stretched([1.0, y / x, 1.0]) };
+        let placed = if is_same(x, y) {
+            *placed
+        } else {
+            placed.stretched([1.0, y / x, 1.0])
+        };
         let end = |[height, radius]: [f64; 2]| (placed.within.point([0.0, 0.0, height]), radius * placed.stretches()[0]);
         let mut ends = [end(lower), end(upper)];
         let along = placed.within.axes().map_or(2, |axes| axes[2]);
@@ -232,7 +245,9 @@ impl Solids {
 
     /// The solid in the frame of its placement.
     fn piece<S: Into<Leaf>>(&mut self, solid: Result<S, Invalid>, placed: &Placement) -> Pieces {
-        let solid = solid.map_err(|error| ["a solid out of range".to_owned(), error.to_string()])?.into();
+        let solid = solid
+            .map_err(|error| ["a solid out of range".to_owned(), error.to_string()])?
+            .into();
         let frame = self.frames.number(&placed.frame)?;
         Ok(vec![Piece { solid, frame }])
     }
@@ -252,7 +267,10 @@ impl Solids {
         if facets <= MOST_FACETS {
             Ok(Some(facets as u32))
         } else {
-            let told = [format!("{facets} facets"), format!("with --facets always there may be {MOST_FACETS}")];
+            let told = [
+                format!("{facets} facets"),
+                format!("with --facets always there may be {MOST_FACETS}"),
+            ];
             Err(refused(arguments, told))
         }
     }

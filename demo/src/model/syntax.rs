@@ -126,7 +126,10 @@ pub fn statements(text: &str) -> Result<Vec<Statement<'_>>, Fault> {
                 // What follows must be the one statement within it.
                 let starts = |letter: char| is_of_name(letter) || "%#!*".contains(letter);
                 if !input.chars().next().is_some_and(starts) {
-                    return Err(wanted(&input, "after a module comes `;`, its children in `{` and `}`, or one child"));
+                    return Err(wanted(
+                        &input,
+                        "after a module comes `;`, its children in `{` and `}`, or one child",
+                    ));
                 }
                 open.push(Open { index, braced: false });
             }
@@ -183,7 +186,9 @@ fn is_of_name(letter: char) -> bool {
 
 fn name<'t>(input: &mut Input<'t>) -> Parsed<&'t str> {
     let letters = take_while(1.., is_of_name);
-    letters.verify(|name: &str| !name.starts_with(|letter: char| letter.is_ascii_digit())).parse_next(input)
+    letters
+        .verify(|name: &str| !name.starts_with(|letter: char| letter.is_ascii_digit()))
+        .parse_next(input)
 }
 
 /// Modifiers, name and arguments.
@@ -211,12 +216,7 @@ fn head<'t>(input: &mut Input<'t>) -> Parsed<Statement<'t>> {
 }
 
 /// Items between commas, up to what closes them.
-fn list<'t, T>(
-    input: &mut Input<'t>,
-    closing: char,
-    between: &'static str,
-    item: impl Fn(&mut Input<'t>) -> Parsed<T>,
-) -> Parsed<Vec<T>> {
+fn list<'t, T>(input: &mut Input<'t>, closing: char, between: &'static str, item: impl Fn(&mut Input<'t>) -> Parsed<T>) -> Parsed<Vec<T>> {
     let mut items = Vec::new();
     loop {
         blank(input)?;
@@ -290,7 +290,10 @@ mod tests {
         let read = statements(text).expect("it is a .csg");
         let shape: Vec<_> = read.iter().map(|statement| (statement.name, statement.end)).collect();
         assert_eq!(shape, [("union", 3), ("cube", 2), ("group", 3), ("sphere", 4)]);
-        let modifiers: Vec<_> = read.iter().map(|statement| (statement.modifiers.left_out, statement.modifiers.root)).collect();
+        let modifiers: Vec<_> = read
+            .iter()
+            .map(|statement| (statement.modifiers.left_out, statement.modifiers.root))
+            .collect();
         assert_eq!(modifiers, [(false, false), (false, false), (true, false), (true, true)]);
         let size = Value::Vector([1.0, 2.5, -0.03].map(Value::Number).to_vec());
         assert_eq!(read[1].arguments[0].name, Some("size"));
@@ -317,7 +320,10 @@ mod tests {
     fn refusals_say_where_and_what_would_do() {
         for (text, told) in [
             ("cube(1)", "line 1, column 8: found the end of the file: after a module comes `;`"),
-            ("union() {\ncube(1);", "line 2, column 9: found the end of the file: `union` of line 1 is not closed"),
+            (
+                "union() {\ncube(1);",
+                "line 2, column 9: found the end of the file: `union` of line 1 is not closed",
+            ),
             ("cube(1);\n}", "line 2, column 1: found `}`: no `{` is open"),
             ("cube(size 3);", "line 1, column 6: found `size`: a value"),
             ("cube(3 4);", "line 1, column 8: found `4`: `,` or `)`"),
