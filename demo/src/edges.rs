@@ -78,6 +78,6 @@ mod tests {
         let edges = |row: Row<'_>, around: &[Row<'_>]| row.edges(around).collect::<Vec<_>>();
         assert_eq!(edges(row(&[dark, dark, light, light, light]), &[]), [1, 2]);
         assert_eq!(edges(row(&even), &[row(&[dark, dark, dark, dark, light])]), [3, 4]);
-        assert_eq!(edges(row(&even), &[row(&even); 2]), []);
+        assert!(edges(row(&even), &[row(&even); 2]).is_empty());
     }
 }

@@ -1,12 +1,12 @@
 //! The gallery: scene after scene to its file, with a table of what each took, and all of them on one sheet.
 
 use crate::output::{prepare, say, write_png};
+use crate::progress::progress_bar;
 use crate::render::{Picture, render, steps};
 use crate::scenes::{self, Scene};
 use crate::sheet::sheet;
 use anyhow::{Context, Result};
 use gsdf_simd::Level;
-use indicatif::{ProgressBar, ProgressStyle};
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -130,14 +130,4 @@ fn row(scene: &Scene, picture: &Picture, seconds: f64, path: Option<&Path>) -> R
         path.unwrap_or(Path::new("")).display()
     );
     Ok(line.trim_end().to_owned())
-}
-
-/// A bar over the steps of all pictures.
-fn progress_bar(steps: u64) -> ProgressBar {
-    let bar = ProgressBar::new(steps);
-    // A template that does not parse would only cost the looks.
-    if let Ok(style) = ProgressStyle::with_template("{bar:40} {percent:>3} %  {elapsed}  {msg}") {
-        bar.set_style(style);
-    }
-    bar
 }

@@ -4,18 +4,24 @@
 //! - [`render`]: a scene to pixels, with the work its primary rays took counted apart from the light.
 //! - [`frame`] and [`leave`]: packets of rays that arrive at surfaces, and those that go on from there.
 //! - [`light`], [`shade`] and [`palette`]: the light and the colours. [`edges`]: where one ray per pixel is not enough.
-//! - [`gallery`], [`sheet`] and [`output`]: the pictures as files, and the table about them.
+//! - [`gallery`], [`sheet`], [`output`] and [`progress`]: the pictures as files, and the table about them.
 //! - [`shapes`]: a picture of each shape there is, all on one sheet and each for its documentation.
+//! - [`model`]: models of OpenSCAD, read from files.
+//! - [`commands`]: what the command line does with them. [`command_line`]: what one can ask for.
 //! - [`paper`]: the composition of the paper this library repairs, in the ways it can be read, measured.
 
+pub mod command_line;
+pub mod commands;
 pub mod edges;
 pub mod frame;
 pub mod gallery;
 pub mod leave;
 pub mod light;
+pub mod model;
 pub mod output;
 pub mod palette;
 pub mod paper;
+pub mod progress;
 pub mod render;
 pub mod scenes;
 pub mod shade;

@@ -73,6 +73,16 @@ impl Light {
         self.sky.lerp(self.ground, 0.5 - 0.5 * normal.y)
     }
 
+    /// What a surface of this colour sends along the line of sight `view` of the lamp in direction `way`; `None` where it faces
+    /// away. Only `dull` of the light goes through its colour.
+    #[must_use]
+    pub fn from_lamp(&self, albedo: Vec3, dull: f32, normal: Vec3, way: Vec3, view: Vec3) -> Option<Vec3> {
+        let facing = normal.dot(way);
+        let half = (way - view).normalize();
+        let glint = || self.glint.0 * normal.dot(half).max(0.0).powi(self.glint.1);
+        (facing > 0.0).then(|| self.lamp * (albedo * facing * dull + glint()))
+    }
+
     /// Towards `count` places of the lamp, spread evenly and turned by `turn`.
     pub fn to_lamp(&self, count: u32, turn: f32) -> impl Iterator<Item = Vec3> + use<> {
         let (toward, extent) = (self.toward, self.extent);

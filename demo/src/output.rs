@@ -1,8 +1,8 @@
 //! Files that are either whole or not there, and a standard output that may go away.
 
 use anyhow::{Context, Result};
-use image::RgbImage;
 use image::codecs::png::{CompressionType, FilterType, PngEncoder};
+use image::{EncodableLayout, ImageBuffer, PixelWithColorType, RgbImage};
 use std::fs::{self, File};
 use std::io::{self, ErrorKind, Write};
 use std::path::{Path, PathBuf};
@@ -40,12 +40,18 @@ pub fn prepare(directory: &Path) -> Result<()> {
 /// # Errors
 /// Where the file cannot be written or renamed. Then nothing is left of it.
 pub fn write_png(image: &RgbImage, path: &Path) -> Result<()> {
+    let bytes = encode(image, CompressionType::Best).with_context(|| format!("cannot write {}", path.display()))?;
+    write_whole(&bytes, path)
+}
+
+/// Writes bytes to a file: under a temporary name beside its own, which it gets when it is whole.
+///
+/// # Errors
+/// Where the file cannot be written or renamed. Then nothing is left of it.
+pub fn write_whole(bytes: &[u8], path: &Path) -> Result<()> {
     let temporary = temporary(path);
     // Whole in memory first: a run that is interrupted is hardly ever interrupted while it writes.
-    let written = encode(image).and_then(|bytes| {
-        fs::write(&temporary, bytes)?;
-        Ok(fs::rename(&temporary, path)?)
-    });
+    let written = fs::write(&temporary, bytes).and_then(|()| fs::rename(&temporary, path));
     if written.is_err() {
         // What matters is the error above; there may be nothing to remove.
         let _ = fs::remove_file(&temporary);
@@ -53,14 +59,68 @@ pub fn write_png(image: &RgbImage, path: &Path) -> Result<()> {
     written.with_context(|| format!("cannot write {}", path.display()))
 }
 
-fn encode(image: &RgbImage) -> Result<Vec<u8>> {
+/// A picture as the bytes of a PNG file.
+///
+/// # Errors
+/// Where it is larger than a file can be.
+pub fn encode<P>(image: &ImageBuffer<P, Vec<P::Subpixel>>, compression: CompressionType) -> Result<Vec<u8>>
+where
+    P: PixelWithColorType,
+    [P::Subpixel]: EncodableLayout,
+{
     let mut bytes = Vec::new();
-    image.write_with_encoder(PngEncoder::new_with_quality(
-        &mut bytes,
-        CompressionType::Best,
-        FilterType::Adaptive,
-    ))?;
+    image.write_with_encoder(PngEncoder::new_with_quality(&mut bytes, compression, FilterType::Adaptive))?;
     Ok(bytes)
+}
+
+/// A file that is written bit by bit and gets its name when it is whole; before that it has a temporary one beside it, and is
+/// removed where it does not come so far.
+#[derive(Debug)]
+pub struct WholeFile {
+    path: PathBuf,
+    temporary: PathBuf,
+    file: File,
+}
+
+impl WholeFile {
+    /// Begins a file.
+    ///
+    /// # Errors
+    /// Where it cannot be made.
+    pub fn create(path: &Path) -> Result<Self> {
+        let temporary = temporary(path);
+        let file = File::create(&temporary).with_context(|| format!("cannot write {}", path.display()))?;
+        Ok(Self {
+            path: path.to_owned(),
+            temporary,
+            file,
+        })
+    }
+
+    /// Gives it its name.
+    ///
+    /// # Errors
+    /// Where that cannot be done.
+    pub fn finish(self) -> Result<()> {
+        fs::rename(&self.temporary, &self.path).with_context(|| format!("cannot write {}", self.path.display()))
+    }
+}
+
+impl Write for WholeFile {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.file.write(bytes)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.file.flush()
+    }
+}
+
+impl Drop for WholeFile {
+    fn drop(&mut self) {
+        // It is not there any more if it was finished.
+        let _ = fs::remove_file(&self.temporary);
+    }
 }
 
 /// A name in the same directory, so that renaming is one step, and another one for each process.
@@ -83,11 +143,27 @@ fn is_temporary(name: &str) -> bool {
 /// # Errors
 /// Where standard output is there and cannot be written to.
 pub fn say(line: &str) -> Result<()> {
+    say_bytes(format!("{line}\n").as_bytes()).map(|_| ())
+}
+
+/// Writes bytes to standard output, and tells whether somebody still reads them.
+///
+/// # Errors
+/// Where standard output is there and cannot be written to.
+pub fn say_bytes(bytes: &[u8]) -> Result<bool> {
     let mut output = io::stdout().lock();
-    match writeln!(output, "{line}").and_then(|()| output.flush()) {
-        Err(error) if error.kind() != ErrorKind::BrokenPipe => Err(error).context("cannot write to standard output"),
-        _ => Ok(()),
+    match output.write_all(bytes).and_then(|()| output.flush()) {
+        Ok(()) => Ok(true),
+        Err(error) if error.kind() == ErrorKind::BrokenPipe => Ok(false),
+        Err(error) => Err(error).context("cannot write to standard output"),
     }
+}
+
+/// The directory of a file, that of a bare name being the current one.
+#[must_use]
+pub fn directory_of(file: &Path) -> &Path {
+    let directory = file.parent().filter(|path| !path.as_os_str().is_empty());
+    directory.unwrap_or(Path::new("."))
 }
 
 #[cfg(test)]

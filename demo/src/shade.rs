@@ -65,13 +65,9 @@ impl<'a> Shader<'a> {
             let dull = 1.0 - (self.look.mirror)(place.leaf);
             let turn = turn(sample.seed);
             for way in light.to_lamp(lamp_rays, turn) {
-                let facing = place.normal.dot(way);
-                if facing > 0.0 {
-                    let half = (way - sample.view).normalize();
-                    let glint = light.glint.0 * place.normal.dot(half).max(0.0).powi(light.glint.1);
-                    let brings = light.lamp * (albedo * facing * dull + glint) / lamp_rays as f32;
+                if let Some(brings) = light.from_lamp(albedo, dull, place.normal, way, sample.view) {
                     self.ways.push((place, way));
-                    self.brings.push((number, brings));
+                    self.brings.push((number, brings / lamp_rays as f32));
                 }
             }
             let ambient = albedo * light.ambient(place.normal) * dull;

@@ -131,6 +131,9 @@ pub use csg::{
     Anywhere, Attribution, Certificate, Certified, CertifiedScratch, Crossing, Crossings, Csg, Departure, Draft, Encounter, Footing, Hit,
     March, Node, OnSurface, Program, ProgramError, SeenFrom, Settled, Sight, Start, attribute, certify, march, sweep,
 };
+/// The vectors and matrices in this crate's interface are those of this crate.
+#[doc(no_inline)]
+pub use glam;
 pub use invalid::{Fault, Invalid};
 pub use leaf::{
     Bounds, CappedCone, CappedCylinder, Capsule, Cone, Cuboid, Cylinder, Ground, HalfSpace, HexagonalPrism, Leaf, Nappe, Octahedron,

@@ -1,0 +1,250 @@
+//! A model in the light of a lamp over the camera's shoulder, with its own colours, and smooth where pixels differ.
+
+use crate::edges::{Row, bytes, grid};
+use crate::frame::{Frame, Met};
+use crate::light::Light;
+use crate::model::Model;
+use crate::palette::{SAND, to_srgb};
+use core::ops::Range;
+use core::str::FromStr;
+use glam::{Vec3, vec3};
+use gsdf_nostd::{Raster, Ray};
+use gsdf_simd::{Caster, Level, Pixel, RayHits, Rays, Scene};
+use image::RgbImage;
+use indicatif::ProgressBar;
+use rayon::prelude::*;
+
+/// How many rays go through a pixel that differs from its neighbours: the square of this number.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Samples(u32);
+
+impl FromStr for Samples {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let side = (1..=8).find(|side: &u32| text.parse() == Ok(side * side));
+        side.map(Self)
+            .ok_or_else(|| "it is a square: 1, 4, 9, 16, 25, 36, 49 or 64".to_owned())
+    }
+}
+
+/// The colours of what a model does not paint.
+const UNPAINTED: Vec3 = SAND;
+
+/// Over the camera's right shoulder: to its right, up and back.
+const TO_LAMP: Vec3 = vec3(0.45, 0.65, 0.75);
+
+/// How many rows are lit at a time: enough for all threads, and little memory.
+const ROWS: u32 = 64;
+
+/// Paints pictures of a model.
+pub struct Painter<'m> {
+    colours: Vec<Vec3>,
+    caster: Caster<'m, 'm, gsdf_nostd::Leaf>,
+    raster: Raster,
+    light: Light,
+    samples: Samples,
+}
+
+/// What a ray that goes through the picture meets.
+struct Sight {
+    ray: Ray,
+    met: Option<Met>,
+    /// The place in the picture from its top, from 0 to 1.
+    height: f32,
+}
+
+impl<'m> Painter<'m> {
+    /// For pictures of a model, as this raster sees it.
+    #[must_use]
+    pub fn new(model: &Model, scene: &'m Scene<'m, gsdf_nostd::Leaf>, raster: Raster, level: Level, samples: Samples) -> Self {
+        let camera = raster.camera();
+        // The camera's own right is on the left in a picture of right-handed axes.
+        let toward = -TO_LAMP.x * camera.right() + TO_LAMP.y * camera.up() - TO_LAMP.z * camera.forward();
+        Self {
+            colours: model.leaves().iter().map(|leaf| leaf.colour.unwrap_or(UNPAINTED)).collect(),
+            caster: Caster::at_level(scene, level),
+            raster,
+            light: Light {
+                toward: toward.normalize(),
+                ..Light::OUTDOORS
+            },
+            samples,
+        }
+    }
+
+    /// The picture of what the pixels met, and how many of them more rays went through. Every finished row is told.
+    #[must_use]
+    pub fn paint(&self, frame: &Frame, bar: &ProgressBar) -> (RgbImage, u64) {
+        let (width, height) = (self.raster.width(), self.raster.height());
+        let bands = || (0..height).step_by(ROWS as usize).map(|top| top..(top + ROWS).min(height));
+        let mut rows: Vec<Vec<[u8; 3]>> = Vec::with_capacity(height as usize);
+        for band in bands() {
+            let colours = self.shade(&self.sights(frame, band.clone()));
+            rows.extend(colours.chunks(width as usize).map(bytes));
+            bar.inc(u64::from(band.end - band.start));
+        }
+        let mut image = RgbImage::from_fn(width, height, |x, y| image::Rgb(rows[y as usize][x as usize]));
+        if self.samples.0 == 1 {
+            return (image, 0);
+        }
+        let row = |y: u32| rows.get(y as usize).map(|bytes| Row { met: frame.row(y), bytes });
+        let edges_of = |y: u32| -> Vec<[u32; 2]> {
+            let around: Vec<_> = [y.wrapping_sub(1), y + 1].into_iter().filter_map(row).collect();
+            row(y).map_or(Vec::new(), |here| here.edges(&around).map(|x| [x as u32, y]).collect())
+        };
+        let mut smoothed = 0;
+        for band in bands() {
+            let edges: Vec<[u32; 2]> = band.into_par_iter().flat_map_iter(edges_of).collect();
+            for ([x, y], colour) in edges.iter().zip(self.smooth(&edges)) {
+                image.put_pixel(*x, *y, image::Rgb(to_srgb(colour)));
+            }
+            smoothed += edges.len() as u64;
+        }
+        (image, smoothed)
+    }
+
+    /// What the rays through the middles of some rows' pixels meet.
+    fn sights(&self, frame: &Frame, rows: Range<u32>) -> Vec<Option<Sight>> {
+        let of_row = |y: u32| {
+            let seen = frame.row(y).iter().zip(0..);
+            seen.map(move |(met, x)| self.sight([x as f32 + 0.5, y as f32 + 0.5], *met))
+        };
+        rows.into_par_iter().flat_map_iter(of_row).collect()
+    }
+
+    fn sight(&self, [x, y]: [f32; 2], met: Option<Met>) -> Option<Sight> {
+        let ray = self.raster.ray_through(x, y).ok()?;
+        let height = y / self.raster.height() as f32;
+        Some(Sight { ray, met, height })
+    }
+
+    /// The colours of some pixels, each the mean of many rays.
+    fn smooth(&self, pixels: &[[u32; 2]]) -> Vec<Vec3> {
+        let places: Vec<[f32; 2]> = pixels
+            .iter()
+            .flat_map(|[x, y]| grid(self.samples.0).map(move |[right, down]| [*x as f32 + right, *y as f32 + down]))
+            .collect();
+        let mut sights: Vec<Option<Sight>> = places.into_par_iter().map(|place| self.sight(place, None)).collect();
+        let mut rays = Batch::default();
+        for sight in &sights {
+            match sight {
+                Some(sight) => rays.push(sight.ray.origin(), sight.ray.direction()),
+                None => rays.push(Vec3::ZERO, Vec3::ZERO),
+            }
+        }
+        for (sight, met) in sights.iter_mut().zip(rays.cast(&self.caster)) {
+            if let Some(sight) = sight {
+                sight.met = met;
+            }
+        }
+        let colours = self.shade(&sights);
+        let share = (self.samples.0 * self.samples.0) as usize;
+        // What is brighter than the picture can show must not outshine the rest of its pixel.
+        let mean = |colours: &[Vec3]| colours.iter().map(|colour| colour.clamp(Vec3::ZERO, Vec3::ONE)).sum::<Vec3>() / share as f32;
+        colours.chunks(share).map(mean).collect()
+    }
+
+    /// The linear colours of what is seen.
+    fn shade(&self, sights: &[Option<Sight>]) -> Vec<Vec3> {
+        let lit: Vec<Option<[Vec3; 2]>> = sights
+            .par_iter()
+            .map(|sight| sight.as_ref().and_then(|sight| self.lit(sight)))
+            .collect();
+        let mut rays = Batch::default();
+        for [from, _] in lit.iter().flatten() {
+            rays.push(*from, self.light.toward);
+        }
+        let mut shaded = rays.any(&self.caster).into_iter();
+        let colour = |(sight, lit): (&Option<Sight>, &Option<[Vec3; 2]>)| {
+            let from_lamp = match lit {
+                Some([_, brings]) if shaded.next() == Some(false) => *brings,
+                _ => Vec3::ZERO,
+            };
+            let Some(sight) = sight else { return self.light.behind(0.5) };
+            match sight.met {
+                Some(met) => from_lamp + self.colour(&met) * self.ambient(met.normal),
+                None => self.light.behind(sight.height),
+            }
+        };
+        sights.iter().zip(&lit).map(colour).collect()
+    }
+
+    /// From where a surface sees the lamp, and what that brings if nothing is in between; `None` where it faces away.
+    fn lit(&self, sight: &Sight) -> Option<[Vec3; 2]> {
+        /// How far over the surface, as a part of the numbers that it was computed from: some hundred rounding errors.
+        const OVER: f32 = 1e-5;
+        let met = sight.met?;
+        let (way, view) = (self.light.toward, sight.ray.direction().normalize());
+        let brings = self.light.from_lamp(self.colour(&met), 1.0, met.normal, way, view)?;
+        let point = sight.ray.at(met.t);
+        let size = point.abs().max_element() + sight.ray.origin().distance(point);
+        Some([point + OVER * size * met.normal, brings])
+    }
+
+    fn colour(&self, met: &Met) -> Vec3 {
+        self.colours.get(met.leaf as usize).copied().unwrap_or(UNPAINTED)
+    }
+
+    /// What comes from all around: the sky is where z leads.
+    fn ambient(&self, normal: Vec3) -> Vec3 {
+        self.light.ambient(vec3(normal.x, normal.z, -normal.y))
+    }
+}
+
+/// Rays in arrays.
+#[derive(Default)]
+struct Batch {
+    origin: [Vec<f32>; 3],
+    direction: [Vec<f32>; 3],
+}
+
+impl Batch {
+    fn push(&mut self, origin: Vec3, direction: Vec3) {
+        for axis in 0..3 {
+            self.origin[axis].push(origin[axis]);
+            self.direction[axis].push(direction[axis]);
+        }
+    }
+
+    fn rays(&self) -> Rays<'_> {
+        Rays {
+            origin: self.origin.each_ref().map(Vec::as_slice),
+            direction: self.direction.each_ref().map(Vec::as_slice),
+            range: None,
+        }
+    }
+
+    /// Whether each of them meets something.
+    fn any(&self, caster: &Caster<'_, '_, gsdf_nostd::Leaf>) -> Vec<bool> {
+        let mut hits = vec![false; self.rays().len()];
+        // All slices are equally long.
+        let _ = caster.any(&self.rays(), &mut hits);
+        hits
+    }
+
+    /// What each of them meets first.
+    fn cast(&self, caster: &Caster<'_, '_, gsdf_nostd::Leaf>) -> Vec<Option<Met>> {
+        let count = self.rays().len();
+        let mut distance = vec![0.0; count];
+        let mut leaf = vec![0; count];
+        let [mut x, mut y, mut z] = core::array::from_fn(|_| vec![0.0; count]);
+        let hits = RayHits {
+            distance: &mut distance,
+            normal: Some([&mut x, &mut y, &mut z]),
+            leaf: Some(&mut leaf),
+        };
+        // All slices are equally long.
+        let _ = caster.cast(&self.rays(), hits);
+        let met = |number: usize| {
+            (leaf[number] != Pixel::NO_LEAF).then(|| Met {
+                t: distance[number],
+                normal: vec3(x[number], y[number], z[number]),
+                leaf: leaf[number],
+                // Nothing goes on from there.
+                face: 0,
+            })
+        };
+        (0..count).map(met).collect()
+    }
+}
