@@ -10,6 +10,7 @@ use crate::gallery::Gallery;
 use crate::paper::command::Paper;
 use crate::scenes;
 use crate::shapes::Shapes;
+use crate::trade::command::Trade;
 use clap::builder::PossibleValuesParser;
 use clap::error::{Error, ErrorKind};
 use clap::{Args, CommandFactory, Parser, Subcommand, value_parser};
@@ -43,6 +44,8 @@ enum Command {
     },
     /// Compare the ways to read the paper's composition with the exact one, on a sheet and in a table
     Paper,
+    /// Measure what accuracy costs: tiers and sphere tracers, time against error
+    Trade(Trade),
     /// Tell what a model is made of: leaves, bounds, and what it costs
     Info(Info),
     /// Render a model to a PNG file, in colours or as data
@@ -122,6 +125,8 @@ pub enum Job {
     Shapes(Shapes),
     /// The readings of the paper.
     Paper(Paper),
+    /// What accuracy costs, in vectors of a level.
+    Trade(Trade, Level),
     /// Something of a model.
     Model(OfModel, Settings),
 }
@@ -160,6 +165,7 @@ impl Job {
             Self::Gallery(gallery) => gallery.render(),
             Self::Shapes(shapes) => shapes.render(),
             Self::Paper(paper) => paper.run(),
+            Self::Trade(trade, level) => trade.run(*level),
             Self::Model(OfModel::Info(info), _) => info.run(),
             Self::Model(OfModel::Render(render), settings) => render.run(settings),
             Self::Model(OfModel::Cast(cast), settings) => cast.run(settings),
@@ -200,7 +206,14 @@ impl TryFrom<CommandLine> for Job {
         let threads = options.threads.map(usize::from);
         let level = options.level();
         let in_gallery = |name| Path::new(DIRECTORY).join(name);
-        let of_model = match line.command {
+        let command = match line.command {
+            Some(Command::Trade(trade)) => {
+                options.refuse(&["--scene", "--size", "--out", "--threads"])?;
+                return Ok(Self::Trade(trade, level?));
+            }
+            other => other,
+        };
+        let of_model = match command {
             Some(Command::Info(info)) => Ok(OfModel::Info(info)),
             Some(Command::Render(render)) => Ok(OfModel::Render(render)),
             Some(Command::Cast(cast)) => Ok(OfModel::Cast(cast)),
@@ -261,8 +274,8 @@ impl TryFrom<CommandLine> for Job {
                     threads,
                 }));
             }
-            // Those of models are gone above.
-            Command::Gallery | Command::Info(_) | Command::Render(_) | Command::Cast(_) | Command::Export(_) => {
+            // The others are gone above.
+            Command::Gallery | Command::Trade(_) | Command::Info(_) | Command::Render(_) | Command::Cast(_) | Command::Export(_) => {
                 let directory = options.out.unwrap_or_else(|| DIRECTORY.into());
                 // Some scenes alone are not the sheet of all.
                 let sheet = options.scene.is_empty().then(|| directory.join(SHEET));

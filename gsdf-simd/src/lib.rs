@@ -115,8 +115,8 @@ pub use batch::RayCaster;
 pub use batch::{Caster, LengthsDiffer, RayHits, Rays};
 pub use certified::certificate_of;
 #[cfg(all(feature = "std", target_arch = "x86_64"))]
-pub use lanes::{Avx2Mask, Avx2x8, Avx512Mask, Avx512x16};
-pub use lanes::{F32x8, F64s, LaneMask, Lanes, MOST_LANES, Mask8, Truths};
+pub use lanes::{Avx2Doubles, Avx2Mask, Avx2WideMask, Avx2x8, Avx512Doubles, Avx512Mask, Avx512WideMask, Avx512x16};
+pub use lanes::{F32x8, F64x8, LaneMask, Lanes, MOST_LANES, Mask8, WideMask8};
 pub use level::{Level, LevelError, Work};
 #[cfg(feature = "std")]
 pub use packet::scratch;

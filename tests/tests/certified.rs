@@ -18,7 +18,11 @@ fn no_certificate_is_wrong_and_few_are_missing() {
             wrong.push(format!("--leaf '{name}' --corpus {corpus} --replay {ray}"));
         }
         let least = least_share(cell);
-        assert!(found.share() >= least, "{name} {corpus}: {} of the hits, not {least}", found.share());
+        assert!(
+            found.share() >= least,
+            "{name} {corpus}: {} of the hits, not {least}",
+            found.share()
+        );
         all = all.joined(found);
     }
     println!("{all:?}");
@@ -63,7 +67,10 @@ fn looked_at(scene: &Scene, step: u32) -> Picture {
     let camera = scene.camera().unwrap();
     let raster = camera.raster(1024, 1024);
     let mut picture = Picture::default();
-    for (x, y) in (0..1024).step_by(step as usize).flat_map(|y| (0..1024).step_by(step as usize).map(move |x| (x, y))) {
+    for (x, y) in (0..1024)
+        .step_by(step as usize)
+        .flat_map(|y| (0..1024).step_by(step as usize).map(move |x| (x, y)))
+    {
         let ray = raster.ray(x, y).unwrap();
         let scratch = CertifiedScratch {
             single: &mut single,

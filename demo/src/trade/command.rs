@@ -4,13 +4,12 @@ use super::contender::Contender;
 use super::measure::{Measured, measure};
 use super::plot;
 use super::scene::{NAMES, Scene};
-use crate::output::write_text;
+use crate::output::{say, write_whole};
 use anyhow::{Context, Result};
 use clap::builder::PossibleValuesParser;
 use clap::value_parser;
 use gsdf_simd::Level;
 use serde::Serialize;
-use std::io::Write;
 use std::path::PathBuf;
 
 /// What accuracy costs: ns per ray against error, of every tier and of sphere tracers.
@@ -56,23 +55,21 @@ impl Trade {
     ///
     /// # Errors
     /// Where a file cannot be written.
-    pub fn run(&self, level: Level, out: &mut impl Write) -> Result<()> {
-        let asked = |name: &&str| self.scenes.is_empty() || self.scenes.iter().any(|asked| asked == name);
+    pub fn run(&self, level: Level) -> Result<()> {
+        let asked = |name: &&&str| self.scenes.is_empty() || self.scenes.iter().any(|asked| asked == **name);
         let contenders: Vec<Contender> = Contender::all(level).collect();
         let mut all = Vec::new();
-        writeln!(
-            out,
+        say(&format!(
             "{:<5} {:<28} {:>9} {:>19} {:>9} {:>9} {:>6} {:>10}",
             "scene", "contender", "ns/ray", "95 % of the median", "p99", "worst", "wrong", "wrong leaf"
-        )?;
+        ))?;
         for name in NAMES.iter().filter(asked) {
             let scene = Scene::by_name(name, self.pixels)?;
             let measured = measure(&scene, &contenders, usize::from(self.rounds), || {})?;
             for one in &measured {
                 let interval = format!("{:.1}..{:.1}", one.ns_interval.0, one.ns_interval.1);
                 let leaf = one.wrong_leaf.map_or_else(|| "-".to_owned(), |wrong| wrong.to_string());
-                writeln!(
-                    out,
+                say(&format!(
                     "{:<5} {:<28} {:>9.1} {interval:>19} {:>9.1e} {:>9.1e} {:>6} {leaf:>10}{}",
                     one.scene,
                     one.contender,
@@ -81,24 +78,23 @@ impl Trade {
                     one.worst,
                     one.wrong,
                     if one.is_best { " *" } else { "" }
-                )?;
+                ))?;
             }
             all.extend(measured);
         }
-        writeln!(
-            out,
+        say(&format!(
             "errors are relative to the distance, of {} x {} rays per scene against f64; * no other one is both faster and more accurate",
             self.pixels, self.pixels
-        )?;
+        ))?;
         if let Some(path) = &self.chart {
-            write_text(&plot::svg(&all)?, path)?;
+            write_whole(plot::svg(&all)?.as_bytes(), path)?;
         }
         if let Some(path) = &self.csv {
             let mut rows = csv::Writer::from_writer(Vec::new());
             for one in &all {
                 rows.serialize(one)?;
             }
-            write_text(&String::from_utf8(rows.into_inner()?)?, path)?;
+            write_whole(&rows.into_inner()?, path)?;
         }
         if let Some(path) = &self.json {
             let report = Report {
@@ -113,7 +109,7 @@ impl Trade {
                 interval: "order statistics, 95 % of the median",
                 measured: &all,
             };
-            write_text(&serde_json::to_string_pretty(&report).context("cannot write JSON")?, path)?;
+            write_whole(&serde_json::to_vec_pretty(&report).context("cannot write JSON")?, path)?;
         }
         Ok(())
     }

@@ -3,7 +3,7 @@
 use super::scene::{Primitive, Scene};
 use anyhow::Result;
 use core::fmt;
-use gsdf_nostd::{Bounded, CertifiedScratch, Lane, Plain, Program, Ray, Real, Span, SphereTracer};
+use gsdf_nostd::{Bounded, CertifiedScratch, Lane, Plain, Program, Ray, Span, SphereTracer};
 use gsdf_simd::{Double, Fast, LaneMask, Lanes, Level, MOST_LANES, Packet, Robust, Tier, Work, certificate_of};
 
 /// How much is spent on accuracy.
@@ -174,11 +174,31 @@ impl Work for Job<'_> {
 
     fn run<T: Lanes>(self, token: T::Token) -> Result<()> {
         match self.method {
-            Method::Fast => T::vectorize(token, #[inline(always)] || self.packets::<T, Fast>(token)),
-            Method::Robust => T::vectorize(token, #[inline(always)] || self.packets::<T, Robust>(token)),
-            Method::Double => T::vectorize(token, #[inline(always)] || self.packets::<T, Double>(token)),
-            Method::Certified => T::vectorize(token, #[inline(always)] || self.certified::<T>(token)),
-            Method::Traced(tracer) => T::vectorize(token, #[inline(always)] || self.traced::<T>(token, &tracer)),
+            Method::Fast => T::vectorize(
+                token,
+                #[inline(always)]
+                || self.packets::<T, Fast>(token),
+            ),
+            Method::Robust => T::vectorize(
+                token,
+                #[inline(always)]
+                || self.packets::<T, Robust>(token),
+            ),
+            Method::Double => T::vectorize(
+                token,
+                #[inline(always)]
+                || self.packets::<T, Double>(token),
+            ),
+            Method::Certified => T::vectorize(
+                token,
+                #[inline(always)]
+                || self.certified::<T>(token),
+            ),
+            Method::Traced(tracer) => T::vectorize(
+                token,
+                #[inline(always)]
+                || self.traced::<T>(token, &tracer),
+            ),
         }
     }
 }

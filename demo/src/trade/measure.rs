@@ -147,7 +147,11 @@ mod tests {
         // Scalar and packets say the same, tier by tier.
         for tier in ["fast", "robust", "f64", "certified"] {
             let (scalar, packets) = (of(&format!("{tier}, scalar")), of(&format!("{tier}, portable")));
-            assert_eq!((scalar.p99, scalar.worst, scalar.wrong), (packets.p99, packets.worst, packets.wrong), "{tier}");
+            assert_eq!(
+                (scalar.p99, scalar.worst, scalar.wrong),
+                (packets.p99, packets.worst, packets.wrong),
+                "{tier}"
+            );
             assert_eq!((scalar.wrong, scalar.wrong_leaf), (0, Some(0)), "{tier}");
         }
         assert!(of("certified, scalar").worst <= f64::from(f32::EPSILON) / 2.0);

@@ -65,7 +65,11 @@ fn draw(panel: &Panel<'_>, scene: &str, measured: &[&Measured]) -> Result<()> {
         .draw()
         .map_err(undrawn)?;
     let place = |error: f64| error.clamp(LEAST, 5.0);
-    let mut best: Vec<(f64, f64)> = measured.iter().filter(|one| one.is_best).map(|one| (one.ns, place(one.p99))).collect();
+    let mut best: Vec<(f64, f64)> = measured
+        .iter()
+        .filter(|one| one.is_best)
+        .map(|one| (one.ns, place(one.p99)))
+        .collect();
     best.sort_by(|a, b| a.0.total_cmp(&b.0));
     chart
         .draw_series(LineSeries::new(best, BLACK.mix(0.3).stroke_width(4)))
@@ -78,7 +82,11 @@ fn draw(panel: &Panel<'_>, scene: &str, measured: &[&Measured]) -> Result<()> {
         let is_packet = !one.contender.ends_with("scalar");
         let style = if is_packet { colour.filled() } else { colour.stroke_width(2) };
         chart.draw_series([Circle::new((one.ns, p99), 4, style)]).map_err(undrawn)?;
-        let wrong = if one.wrong > 0 { format!(" ({} wrong)", one.wrong) } else { String::new() };
+        let wrong = if one.wrong > 0 {
+            format!(" ({} wrong)", one.wrong)
+        } else {
+            String::new()
+        };
         let label = Text::new(
             format!("  {}{wrong}", one.contender),
             (one.ns, p99),

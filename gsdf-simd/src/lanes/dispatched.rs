@@ -6,7 +6,8 @@
 //!
 //! Only operations that round correctly are taken from `fearless_simd`: not its fused or estimated ones.
 
-use super::{F64s, LaneMask, Lanes, padded, put};
+use super::dispatched_doubles::{Avx2Doubles, Avx512Doubles};
+use super::{LaneMask, Lanes, padded, put};
 use core::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 use fearless_simd::prelude::*;
 use fearless_simd::x86::{Avx2, Avx512};
@@ -17,7 +18,7 @@ macro_rules! lanes_in_a_register {
     (
         $(#[$about:meta])* $number:ident($floats:ident, $integers:ident), $lanes:literal;
         $(#[$about_mask:meta])* $mask:ident($truths:ident);
-        $token:ident, $has:ident
+        $doubles:ident, $token:ident, $has:ident
     ) => {
         $(#[$about])*
         #[derive(Clone, Copy, Debug)]
@@ -140,7 +141,7 @@ macro_rules! lanes_in_a_register {
         impl Lanes for $number {
             type Token = $token;
             type Array = [f32; $lanes];
-            type Doubles = F64s<$lanes>;
+            type Doubles = $doubles;
 
             fn detect() -> Option<$token> {
                 Level::new().$has()
@@ -162,12 +163,12 @@ macro_rules! lanes_in_a_register {
                 self.0.into()
             }
             #[inline(always)]
-            fn to_doubles(self) -> F64s<$lanes> {
-                F64s::from_singles(&self.to_array())
+            fn to_doubles(self) -> $doubles {
+                $doubles::widened(self.0)
             }
             #[inline(always)]
-            fn from_doubles(token: $token, doubles: F64s<$lanes>) -> Self {
-                Self($floats::simd_from(token, doubles.to_singles()))
+            fn from_doubles(_: $token, doubles: $doubles) -> Self {
+                Self(doubles.narrowed())
             }
             #[inline(always)]
             fn store(self, place: &mut [f32]) {
@@ -220,7 +221,7 @@ lanes_in_a_register! {
     Avx2x8(f32x8, i32x8), 8;
     /// Eight truth values in one register of AVX2.
     Avx2Mask(mask32x8);
-    Avx2, as_avx2
+    Avx2Doubles, Avx2, as_avx2
 }
 
 lanes_in_a_register! {
@@ -228,5 +229,5 @@ lanes_in_a_register! {
     Avx512x16(f32x16, i32x16), 16;
     /// Sixteen truth values in one mask register of AVX-512.
     Avx512Mask(mask32x16);
-    Avx512, as_avx512
+    Avx512Doubles, Avx512, as_avx512
 }

@@ -2,12 +2,16 @@
 
 #[cfg(all(feature = "std", target_arch = "x86_64"))]
 mod dispatched;
+#[cfg(all(feature = "std", target_arch = "x86_64"))]
+mod dispatched_doubles;
 mod doubles;
 mod wide;
 
 #[cfg(all(feature = "std", target_arch = "x86_64"))]
 pub use dispatched::{Avx2Mask, Avx2x8, Avx512Mask, Avx512x16};
-pub use doubles::{F64s, Truths};
+#[cfg(all(feature = "std", target_arch = "x86_64"))]
+pub use dispatched_doubles::{Avx2Doubles, Avx2WideMask, Avx512Doubles, Avx512WideMask};
+pub use doubles::{F64x8, WideMask8};
 pub use wide::{F32x8, Mask8};
 
 use gsdf_nostd::{Mask, Real};

@@ -1,6 +1,6 @@
 //! Eight `f32` in whatever vectors the target has: the portable packet.
 
-use super::{F64s, LaneMask, Lanes, padded, put};
+use super::{F64x8, LaneMask, Lanes, padded, put};
 use core::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 use gsdf_nostd::{Mask, Real};
 use wide::f32x8;
@@ -206,7 +206,7 @@ impl Real for F32x8 {
 impl Lanes for F32x8 {
     type Token = ();
     type Array = [f32; 8];
-    type Doubles = F64s<8>;
+    type Doubles = F64x8;
 
     fn detect() -> Option<()> {
         Some(())
@@ -226,11 +226,11 @@ impl Lanes for F32x8 {
         Self::to_array(self)
     }
     #[inline(always)]
-    fn to_doubles(self) -> F64s<8> {
-        F64s::from_singles(&self.to_array())
+    fn to_doubles(self) -> F64x8 {
+        F64x8::from_singles(self.to_array())
     }
     #[inline(always)]
-    fn from_doubles((): (), doubles: F64s<8>) -> Self {
+    fn from_doubles((): (), doubles: F64x8) -> Self {
         Self::new(doubles.to_singles())
     }
     #[inline(always)]

@@ -45,6 +45,9 @@ impl Certainty {
 
 impl Cell {
     /// Certifies rays, on all threads.
+    ///
+    /// # Panics
+    /// Where the library refuses a solid or a ray, which corpora do not make.
     #[must_use]
     pub fn certainty(self, rays: Range<u64>) -> Certainty {
         let targets: Vec<Range<u64>> = Self::by_target(rays).collect();
@@ -123,7 +126,11 @@ fn certified<T: Lane>(trial: &Trial, leaf: &Leaf, like: T, to_f64: impl Fn(T) ->
     let nodes = [Node::Leaf { solid: *leaf, frame: 0 }];
     let Certificate { t, sure, .. } = certify(&nodes, &[span], start);
     let window = sure.then(|| {
-        let (low, high) = if t.value < T::from(f32::INFINITY) { t.ends() } else { (t.value, t.value) };
+        let (low, high) = if t.value < T::from(f32::INFINITY) {
+            t.ends()
+        } else {
+            (t.value, t.value)
+        };
         Window(in_world(low), in_world(high))
     });
     (window, in_world(start))
