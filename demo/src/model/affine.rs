@@ -121,6 +121,19 @@ impl Affine {
         }
     }
 
+    /// The map without what rounding has left of zeros: the cosine of a quarter turn is 6e-17 to some who write it.
+    #[must_use]
+    pub fn without_dust(&self) -> Self {
+        let clean = |row: Vector| {
+            let size = row.iter().fold(0.0, |size: f64, part| size.max(part.abs()));
+            row.map(|part| if part.abs() <= CANCELLED * size { 0.0 } else { part })
+        };
+        Self {
+            linear: self.linear.map(clean),
+            ..*self
+        }
+    }
+
     /// The axis along which each axis goes, by their numbers, if it is axes they go along: then the map is made of quarter
     /// turns, mirrors, stretches along the axes and a translation.
     #[must_use]
@@ -160,6 +173,7 @@ impl Placement {
     /// What is placed by `inner` in what is placed like this; `None` where that leaves it no volume.
     #[must_use]
     pub fn then(&self, inner: &Affine) -> Option<Self> {
+        let inner = &inner.without_dust();
         if inner.axes().is_some() {
             let within = self.within.after(inner);
             return Some(Self { within, ..*self });

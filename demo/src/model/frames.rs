@@ -1,6 +1,7 @@
 //! The frames of a model's solids, each made once.
 
 use super::affine::Affine;
+use super::literals::Literals;
 use glam::{Mat3, Vec3};
 use gsdf_nostd::Transform;
 use std::collections::HashMap;
@@ -19,12 +20,13 @@ impl Frames {
     ///
     /// # Errors
     /// Where the library has no such transform, or there are too many: what is wrong, and what would do.
-    pub fn number(&mut self, frame: &Affine) -> Result<u16, [String; 2]> {
+    pub fn number(&mut self, frame: &Affine, literals: &mut Literals) -> Result<u16, [String; 2]> {
         if *frame == Affine::IDENTITY {
             return Ok(0);
         }
-        let column = |column: usize| Vec3::from(frame.linear.map(|row| row[column] as f32));
-        let matrix = Mat3::from_cols(column(0), column(1), column(2));
+        // Ways to turn that differ by rounding are one.
+        let [x, y, z] = [0, 1, 2].map(|column| literals.vector(frame.linear.map(|row| row[column])));
+        let matrix = Mat3::from_cols(x, y, z);
         let bits = matrix.to_cols_array().map(f32::to_bits);
         if let Some(number) = self.numbers.get(&bits) {
             return Ok(*number);

@@ -49,6 +49,7 @@ fn first_word(text: &str) -> String {
         .collect();
     match text.chars().next() {
         None => "the end of the file".to_owned(),
+        Some(quote @ ('"' | '\'')) => format!("`{quote}`"),
         Some(letter) if word.is_empty() => format!("`{}`", letter.escape_debug()),
         Some(_) => format!("`{word}`"),
     }

@@ -248,7 +248,7 @@ impl Solids {
         let solid = solid
             .map_err(|error| ["a solid out of range".to_owned(), error.to_string()])?
             .into();
-        let frame = self.frames.number(&placed.frame)?;
+        let frame = self.frames.number(&placed.frame, &mut self.literals)?;
         Ok(vec![Piece { solid, frame }])
     }
 
