@@ -6,6 +6,7 @@
 //! - [`light`], [`shade`] and [`palette`]: the light and the colours. [`edges`]: where one ray per pixel is not enough.
 //! - [`gallery`], [`sheet`] and [`output`]: the pictures as files, and the table about them.
 //! - [`shapes`]: a picture of each shape there is, all on one sheet and each for its documentation.
+//! - [`model`]: models of OpenSCAD, read from files.
 //! - [`paper`]: the composition of the paper this library repairs, in the ways it can be read, measured.
 
 pub mod edges;
@@ -13,6 +14,7 @@ pub mod frame;
 pub mod gallery;
 pub mod leave;
 pub mod light;
+pub mod model;
 pub mod output;
 pub mod palette;
 pub mod paper;
