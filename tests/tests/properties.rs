@@ -25,4 +25,5 @@ mod references;
 mod regressions;
 mod scenes;
 mod shared_faces;
+mod tiers;
 mod units;

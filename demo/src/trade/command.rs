@@ -67,7 +67,7 @@ impl Trade {
             let scene = Scene::by_name(name, self.pixels)?;
             let measured = measure(&scene, &contenders, usize::from(self.rounds), || {})?;
             for one in &measured {
-                let interval = format!("{:.1}..{:.1}", one.ns_interval.0, one.ns_interval.1);
+                let interval = format!("{:.1}..{:.1}", one.ns_low, one.ns_high);
                 let leaf = one.wrong_leaf.map_or_else(|| "-".to_owned(), |wrong| wrong.to_string());
                 say(&format!(
                     "{:<5} {:<28} {:>9.1} {interval:>19} {:>9.1e} {:>9.1e} {:>6} {leaf:>10}{}",

@@ -118,7 +118,7 @@ struct Job<'a> {
 }
 
 /// How far tracers go: to the end of the scenes, and some.
-const FAR: f32 = 200.0;
+const FAR: f32 = 10_000.0;
 
 impl Job<'_> {
     fn one_by_one(self) -> Result<()> {

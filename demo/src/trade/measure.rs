@@ -37,8 +37,10 @@ pub struct Measured {
     pub contender: String,
     /// Nanoseconds per ray: the median of the rounds.
     pub ns: f64,
-    /// Between which two the median of all rounds there could be lies, with 95 % confidence: order statistics.
-    pub ns_interval: (f64, f64),
+    /// The least that the median of all rounds there could be is, with 95 % confidence: order statistics.
+    pub ns_low: f64,
+    /// The most.
+    pub ns_high: f64,
     /// The relative error of the distance that one hit in a hundred exceeds.
     pub p99: f64,
     /// The largest.
@@ -79,7 +81,7 @@ pub fn measure(scene: &Scene, contenders: &[Contender], rounds: usize, mut progr
     for (measured, times) in measured.iter_mut().zip(&mut times) {
         times.sort_by(f64::total_cmp);
         measured.ns = times[times.len() / 2];
-        measured.ns_interval = interval(times);
+        (measured.ns_low, measured.ns_high) = interval(times);
     }
     mark_best(&mut measured);
     Ok(measured)
@@ -111,7 +113,8 @@ fn judged(scene: &Scene, contender: &Contender, truth: &Truth, seen: &[Seen]) ->
         scene: scene.name,
         contender: contender.to_string(),
         ns: 0.0,
-        ns_interval: (0.0, 0.0),
+        ns_low: 0.0,
+        ns_high: 0.0,
         p99: at(last - last / 100),
         worst: at(last),
         wrong,
