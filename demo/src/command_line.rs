@@ -59,7 +59,7 @@ enum Command {
 /// They may stand before the command or after it.
 #[derive(Args, Debug)]
 struct Options {
-    /// Pixels along each side of a picture, N or, of a model, also WxH; on a sheet half of them [default: 512, paper: 256]
+    /// Pixels along each side of a picture, N or, of a model, also `WxH`; on a sheet half of them [default: 512, paper: 256]
     #[arg(long, global = true, value_name = "N")]
     size: Option<Size>,
     /// Directory of the pictures, or file of the sheet, picture, answers or text [default: gallery, gallery/sheet.png,

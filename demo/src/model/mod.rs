@@ -1,7 +1,7 @@
 //! Models: the `.csg` files of OpenSCAD, read into programs.
 //!
 //! - [`syntax`]: the statements of a text. [`arguments`]: what they are called with. [`refusal`]: what is wrong, and where.
-//! - [`evaluate`]: statements to solids and how they are joined. [`program`]: those to a program in postfix order.
+//! - [`mod@evaluate`]: statements to solids and how they are joined. [`program`]: those to a program in postfix order.
 //! - [`solids`]: OpenSCAD's modules to the leaves of the library; [`polytope`] and [`polyhedron`]: those with flat faces.
 //! - [`affine`]: maps in double precision. [`frames`] and [`literals`]: the same map, or number, is the same everywhere.
 //! - [`bounds`]: how far a model reaches.

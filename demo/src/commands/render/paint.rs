@@ -31,8 +31,9 @@ impl FromStr for Samples {
 /// The colours of what a model does not paint.
 const UNPAINTED: Vec3 = SAND;
 
-/// Over the camera's right shoulder: to its right, up and back.
-const TO_LAMP: Vec3 = vec3(0.45, 0.65, 0.75);
+/// Over the camera's left shoulder: to its right, up and back. Of a box that is framed front, side and top get three different
+/// lights.
+const TO_LAMP: Vec3 = vec3(-0.12, 0.55, 0.8);
 
 /// How many rows are lit at a time: enough for all threads, and little memory.
 const ROWS: u32 = 64;
