@@ -8,7 +8,6 @@
 //! - [`shapes`]: a picture of each shape there is, all on one sheet and each for its documentation.
 //! - [`model`]: models of OpenSCAD, read from files.
 //! - [`commands`]: what the command line does with them. [`command_line`]: what one can ask for.
-//! - [`trade`]: what accuracy costs, measured.
 //! - [`paper`]: the composition of the paper this library repairs, in the ways it can be read, measured.
 
 pub mod command_line;
@@ -28,4 +27,3 @@ pub mod scenes;
 pub mod shade;
 pub mod shapes;
 pub mod sheet;
-pub mod trade;

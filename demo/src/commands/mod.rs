@@ -5,6 +5,7 @@ pub mod export;
 pub mod info;
 pub mod render;
 pub mod size;
+pub mod trade;
 
 use crate::model::Model;
 use crate::model::evaluate::Reading;

@@ -1,14 +1,11 @@
 //! The command `trade`.
 
-use super::contender::Contender;
-use super::measure::{Measured, measure};
-use super::plot;
-use super::scene::{NAMES, Scene};
 use crate::output::{say, write_whole};
 use anyhow::{Context, Result};
 use clap::builder::PossibleValuesParser;
 use clap::value_parser;
 use gsdf_simd::Level;
+use gsdf_trade::{Contender, Measured, NAMES, Scene, measure, svg};
 use serde::Serialize;
 use std::path::PathBuf;
 
@@ -87,7 +84,7 @@ impl Trade {
             self.pixels, self.pixels
         ))?;
         if let Some(path) = &self.chart {
-            write_whole(plot::svg(&all)?.as_bytes(), path)?;
+            write_whole(svg(&all)?.as_bytes(), path)?;
         }
         if let Some(path) = &self.csv {
             let mut rows = csv::Writer::from_writer(Vec::new());

@@ -137,32 +137,7 @@ fn mark_best(measured: &mut [Measured]) {
 
 #[cfg(test)]
 mod tests {
-    use super::{Contender, interval, measure};
-    use crate::trade::Scene;
-    use gsdf_simd::Level;
-
-    #[test]
-    fn tiers_are_as_accurate_as_they_say() {
-        let scene = Scene::by_name("s2", 48).unwrap();
-        let contenders: Vec<_> = Contender::all(Level::PORTABLE).collect();
-        let measured = measure(&scene, &contenders, 1, || {}).unwrap();
-        let of = |name: &str| measured.iter().find(|one| one.contender == name).unwrap();
-        // Scalar and packets say the same, tier by tier.
-        for tier in ["fast", "robust", "f64", "certified"] {
-            let (scalar, packets) = (of(&format!("{tier}, scalar")), of(&format!("{tier}, portable")));
-            assert_eq!(
-                (scalar.p99, scalar.worst, scalar.wrong),
-                (packets.p99, packets.worst, packets.wrong),
-                "{tier}"
-            );
-            assert_eq!((scalar.wrong, scalar.wrong_leaf), (0, Some(0)), "{tier}");
-        }
-        assert!(of("certified, scalar").worst <= f64::from(f32::EPSILON) / 2.0);
-        assert!(of("f64, scalar").worst <= of("robust, scalar").worst);
-        assert!(of("robust, scalar").worst < 1e-6 && of("fast, scalar").worst < 1e-4);
-        assert!(of("traced 1e-2 64, scalar").p99 > of("traced 1e-4 512, scalar").p99);
-        assert!(measured.iter().any(|one| one.is_best));
-    }
+    use super::interval;
 
     #[test]
     fn an_interval_holds_the_median() {

@@ -1,0 +1,27 @@
+//! What the trade says of the tiers is what they promise.
+
+use gsdf_simd::Level;
+use gsdf_trade::{Contender, Scene, measure};
+
+#[test]
+fn tiers_are_as_accurate_as_they_say() {
+    let scene = Scene::by_name("s2", 48).unwrap();
+    let contenders: Vec<_> = Contender::all(Level::PORTABLE).collect();
+    let measured = measure(&scene, &contenders, 1, || {}).unwrap();
+    let of = |name: &str| measured.iter().find(|one| one.contender == name).unwrap();
+    // Scalar and packets say the same, tier by tier.
+    for tier in ["fast", "robust", "f64", "certified"] {
+        let (scalar, packets) = (of(&format!("{tier}, scalar")), of(&format!("{tier}, portable")));
+        assert_eq!(
+            (scalar.p99, scalar.worst, scalar.wrong),
+            (packets.p99, packets.worst, packets.wrong),
+            "{tier}"
+        );
+        assert_eq!((scalar.wrong, scalar.wrong_leaf), (0, Some(0)), "{tier}");
+    }
+    assert!(of("certified, scalar").worst <= f64::from(f32::EPSILON) / 2.0);
+    assert!(of("f64, scalar").worst <= of("robust, scalar").worst);
+    assert!(of("robust, scalar").worst < 1e-6 && of("fast, scalar").worst < 1e-4);
+    assert!(of("traced 1e-2 64, scalar").p99 > of("traced 1e-4 512, scalar").p99);
+    assert!(measured.iter().any(|one| one.is_best));
+}
