@@ -5,6 +5,7 @@ mod accuracy;
 mod algebra;
 mod bad_input;
 mod bad_programs;
+mod bounded;
 mod certified;
 mod closest;
 mod composed;

@@ -97,3 +97,63 @@ pub fn certify<T: Real, L>(nodes: &[Node<L>], spans: &[Span<Bounded<T>>], start:
     }
     certificate
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{Certificate, certify};
+    use crate::bounded::Bounded;
+    use crate::csg::Node;
+    use crate::real::Real;
+    use crate::span::Span;
+
+    /// A span whose ends may be off by a tenth.
+    fn span(enter: f32, exit: f32) -> Span<Bounded<f32>> {
+        let end = |value| Bounded { value, error: 0.1 };
+        Span::between(end(enter), end(exit))
+    }
+
+    const LEAF: Node<()> = Node::Leaf { solid: (), frame: 0 };
+
+    fn union_of_two(first: Span<Bounded<f32>>, second: Span<Bounded<f32>>) -> Certificate<f32> {
+        certify(&[LEAF, LEAF, Node::Union], &[first, second], 0.0)
+    }
+
+    #[test]
+    fn a_root_by_itself_is_certain() {
+        let found = union_of_two(span(5.0, 6.0), span(1.0, 3.0));
+        assert!(found.sure && !found.inside && found.at_enter);
+        assert_eq!((found.t.value, found.t.error, found.leaf), (1.0, 0.1, 1.0));
+        // From within, past an entry that lies in the other solid.
+        let found = certify(&[LEAF, LEAF, Node::Union], &[span(-1.0, 3.0), span(2.0, 5.0)], 0.5);
+        assert!(found.sure && found.inside && !found.at_enter);
+        assert_eq!((found.t.value, found.leaf), (5.0, 1.0));
+        let nothing = union_of_two(span(-3.0, -1.0), span(-6.0, -5.0));
+        assert!(nothing.sure && nothing.t.value == f32::INFINITY && nothing.leaf == f32::INFINITY);
+    }
+
+    #[test]
+    fn roots_within_reach_of_each_other_are_not() {
+        assert!(!union_of_two(span(1.0, 3.0), span(1.15, 4.0)).sure);
+        assert!(union_of_two(span(1.0, 3.0), span(1.25, 4.0)).sure);
+        // Not even where nothing comes of their order.
+        assert!(!union_of_two(span(1.0, 2.0), span(2.1, 4.0)).inside);
+        let cut = |second| certify(&[LEAF, LEAF, Node::Difference], &[span(1.0, 4.0), second], 0.0);
+        assert!(!cut(span(0.5, 1.1)).sure);
+        assert!(cut(span(0.5, 1.5)).sure && cut(span(0.5, 1.5)).t.value == 1.5);
+    }
+
+    #[test]
+    fn a_start_within_reach_of_a_root_is_not() {
+        assert!(!certify(&[LEAF], &[span(1.0, 3.0)], 1.05).sure);
+        assert!(certify(&[LEAF], &[span(1.0, 3.0)], 1.2).sure);
+    }
+
+    #[test]
+    fn what_may_not_be_there_matters_where_it_would_be_met() {
+        // So thin that it may be empty.
+        let doubtful = span(2.0, 2.1);
+        assert!(!doubtful.enter.lt(doubtful.exit).sure);
+        assert!(union_of_two(span(1.0, 3.0), doubtful).sure);
+        assert!(!union_of_two(span(4.0, 5.0), doubtful).sure);
+    }
+}
