@@ -232,7 +232,8 @@ fn that_nobody_reads_on_is_no_error() -> Result<()> {
         .spawn()?;
     let mut input = child.stdin.take().context("there is an input")?;
     let mut output = child.stdout.take().context("there is an output")?;
-    let line = b"0 0 9 0.01 0.02 -1\n";
+    // Beside the hole.
+    let line = b"1.5 0 9 0.01 0.02 -1\n";
     input.write_all(line)?;
     let mut answer = [0; 8];
     // Answers come as soon as there are rays.
