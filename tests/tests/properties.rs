@@ -26,5 +26,4 @@ mod references;
 mod regressions;
 mod scenes;
 mod shared_faces;
-mod tiers;
 mod units;

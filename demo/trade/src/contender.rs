@@ -39,6 +39,14 @@ pub struct Seen {
     pub leaf: Option<u32>,
 }
 
+impl Seen {
+    /// The leaf, where something was met.
+    #[must_use]
+    pub fn hit_leaf(&self) -> Option<u32> {
+        self.leaf.filter(|_| self.t.is_finite())
+    }
+}
+
 const NOTHING: Seen = Seen {
     t: f32::INFINITY,
     leaf: None,

@@ -1,7 +1,7 @@
 //! What the trade says of the tiers is what they promise.
 
 use gsdf_simd::Level;
-use gsdf_trade::{Contender, Scene, measure};
+use gsdf_trade::{Contender, NAMES, Scene, Seen, measure};
 
 #[test]
 fn tiers_are_as_accurate_as_they_say() {
@@ -24,4 +24,23 @@ fn tiers_are_as_accurate_as_they_say() {
     assert!(of("robust, scalar").worst < 1e-6 && of("fast, scalar").worst < 1e-4);
     assert!(of("traced 1e-2 64, scalar").p99 > of("traced 1e-4 512, scalar").p99);
     assert!(measured.iter().any(|one| one.is_best));
+}
+
+/// In every tier a packet gives the bits of its rays by themselves, at every level.
+#[test]
+fn a_lane_is_a_ray() {
+    for scene in NAMES {
+        let scene = Scene::by_name(scene, 64).unwrap();
+        for level in Level::available() {
+            let contenders: Vec<_> = Contender::all(level).filter(|contender| !contender.is_traced()).collect();
+            let (mut alone, mut in_packets) = (Vec::new(), Vec::new());
+            for pair in contenders.chunks(2) {
+                pair[0].cast(&scene, &mut alone).unwrap();
+                pair[1].cast(&scene, &mut in_packets).unwrap();
+                assert_eq!(pair[0].method, pair[1].method);
+                let bits = |seen: &[Seen]| -> Vec<_> { seen.iter().map(|seen| (seen.t.to_bits(), seen.hit_leaf())).collect() };
+                assert!(bits(&alone) == bits(&in_packets), "{} on {}", pair[1], scene.name);
+            }
+        }
+    }
 }

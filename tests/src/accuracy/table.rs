@@ -1,6 +1,6 @@
 //! The table: what is allowed in every cell, and whether what was measured is.
 
-use super::measure::{Cell, Floor, PART, is_curved};
+use super::measure::{Cell, Floor, PART, WELL_CONDITIONED, is_curved};
 use super::record::Record;
 use super::statistics::{Summary, Worst};
 use super::trial::Arithmetic;
@@ -137,20 +137,29 @@ impl Figure {
 
 impl Allowed {
     /// The bounds that follow from what was measured: of robust arithmetics the [`Figure`] of the leaf, where that is a
-    /// bound, and else four times as much, rounded up to two digits. Nothing is held to less than one ray of a [`PART`], or
-    /// to less than four units in the last place.
+    /// bound, and else four times as much, rounded up to two digits; for the largest error in units in the last place what
+    /// that makes of the worst condition. Nothing is held to less than one ray of a [`PART`], or to less than four units in
+    /// the last place.
     #[must_use]
     pub fn following_from(found: &Summary, cell: Cell, arithmetic: Arithmetic) -> Self {
         let largest = found.conditioned.error;
-        let (figure, room) = match arithmetic {
-            Arithmetic::Plain => (None, ROOM_OF_PLAIN),
-            Arithmetic::Robust | Arithmetic::Double => (Figure::of(cell.leaf).bound(largest), ROOM),
+        let (conditioned, most) = match arithmetic {
+            Arithmetic::Plain => (
+                rounded_up(ROOM_OF_PLAIN * largest),
+                rounded_up(ROOM_OF_PLAIN * found.most.error.max(1.0)),
+            ),
+            Arithmetic::Robust | Arithmetic::Double => {
+                let figure = Figure::of(cell.leaf).bound(largest);
+                let conditioned = figure.unwrap_or_else(|| rounded_up(ROOM * largest));
+                // A unit roundoff of a number is at most a unit in its last place.
+                (conditioned, rounded_up(WELL_CONDITIONED * conditioned))
+            }
         };
         Self {
             wrong: rounded_up((ROOM * found.wrong_share).max(1.0 / PART as f64)).min(1.0),
             p99: rounded_up(ROOM * found.p99.max(1.0)),
-            most: rounded_up(room * found.most.error.max(1.0)),
-            conditioned: figure.unwrap_or_else(|| rounded_up(room * largest)),
+            most,
+            conditioned,
         }
     }
 
@@ -292,7 +301,7 @@ mod tests {
         let expected = Allowed {
             wrong: 4e-3,
             p99: 16.0,
-            most: 40.0,
+            most: 230.0,
             conditioned: 3.5,
         };
         assert_eq!(bounds(&FOUND, Arithmetic::Robust), expected);
@@ -308,7 +317,7 @@ mod tests {
             },
             Arithmetic::Robust,
         );
-        assert_eq!((none.wrong, none.p99, none.most, none.conditioned), (3.1e-5, 4.0, 4.0, 3.5));
+        assert_eq!((none.wrong, none.p99, none.most, none.conditioned), (3.1e-5, 4.0, 230.0, 3.5));
     }
 
     #[test]
