@@ -45,3 +45,47 @@ pub fn certificate_of<T: Lanes>(found: &Certificate<T>, lane: usize) -> Option<C
         sweeps: found.sweeps,
     })
 }
+
+#[cfg(all(test, feature = "std"))]
+mod tests {
+    use super::certificate_of;
+    use crate::packet::Packet;
+    use glam::{Vec3, vec3};
+    use gsdf_nostd::{Anywhere, Bounded, Program, Ray, Span, Sphere, certify, csg, leaf_set};
+
+    leaf_set! { enum Ball { Sphere(Sphere) } }
+
+    csg! {
+        const PAIR: Ball = union(Sphere::new(Vec3::ZERO, 1.0), Sphere::new(vec3(1.2, 0.1, 3.0), 0.9))
+    }
+
+    /// Certain lanes have the bits of single rays, and the others are not certain there either.
+    #[test]
+    fn a_lane_is_a_ray() {
+        let program: Program<'_, Ball> = PAIR.program();
+        let (mut certain, mut uncertain) = (0, 0);
+        for row in 0..200_u16 {
+            let at = |lane: u16| f32::from(row * 8 + lane) * 0.0025 - 2.0;
+            let rays: [Ray; 8] = core::array::from_fn(|lane| {
+                let x = at(lane as u16);
+                Ray::new(vec3(x, x * x * 0.1, -1e3), vec3(0.0, 0.0, 1.0 + x * 0.01)).unwrap()
+            });
+            let empty = Span::empty_like(Bounded::exact(crate::F32x8::splat(0.0)));
+            let found = Packet::new(&rays).certify(&program, &mut [empty; 2]).unwrap();
+            for (lane, ray) in rays.iter().enumerate() {
+                let mut spans = [Span::empty_like(Bounded::exact(0.0_f32)); 2];
+                program.spans_along(&ray.line(Bounded::exact(0.0)), Anywhere, &mut spans);
+                let alone = certify(program.nodes(), &spans, ray.start_on_line(0.0));
+                let own = certificate_of(&found, lane).unwrap();
+                assert_eq!(own.sure, alone.sure, "{ray:?}");
+                if alone.sure {
+                    certain += 1;
+                    assert_eq!((own.t, own.leaf, own.inside), (alone.t, alone.leaf, alone.inside), "{ray:?}");
+                } else {
+                    uncertain += 1;
+                }
+            }
+        }
+        assert!(certain > 1000 && uncertain > 0, "{certain} certain, {uncertain} not");
+    }
+}

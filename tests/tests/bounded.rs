@@ -1,5 +1,6 @@
 //! Numbers that know their errors do.
 
+use core::fmt::Debug;
 use gsdf_nostd::{Bounded, Mask, Real};
 use gsdf_tests::reference::Exact;
 use proptest::prelude::*;
@@ -35,7 +36,7 @@ fn number() -> impl Strategy<Value = f32> {
 }
 
 /// Applies operations in turn; [`None`] where one has no value.
-fn applied<T: Real<Scalar = T, Mask = bool>>(first: f32, operations: &[(Operation, f32)], like: T) -> Option<Both<T>> {
+fn applied<T: Real<Scalar = T, Mask = bool> + Debug>(first: f32, operations: &[(Operation, f32)], like: T) -> Option<Both<T>> {
     let number = |value: f32| (Bounded::exact(like.splat_like(value)), Exact::from(f64::from(value)));
     let (mut bounded, mut exact) = number(first);
     for &(operation, operand) in operations {

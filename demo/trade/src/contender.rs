@@ -4,7 +4,7 @@ use super::scene::{Primitive, Scene};
 use anyhow::Result;
 use core::fmt;
 use gsdf_nostd::{Bounded, CertifiedScratch, Lane, Plain, Program, Ray, Span, SphereTracer};
-use gsdf_simd::{Double, Fast, LaneMask, Lanes, Level, MOST_LANES, Packet, Robust, Tier, Work, certificate_of};
+use gsdf_simd::{Double, Fast, LaneMask, Lanes, Level, MOST_LANES, Packet, Robust, Tier, Work};
 
 /// How much is spent on accuracy.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -59,7 +59,7 @@ const EPSILONS: [f32; 4] = [1e-2, 1e-3, 1e-4, 1e-5];
 const STEPS: [u32; 2] = [64, 512];
 
 impl Contender {
-    /// All of them: tiers and tracers, single rays and packets.
+    /// All of them: tiers and tracers, single rays and packets; certified ones alone, since each is completed by itself.
     pub fn all(level: Level) -> impl Iterator<Item = Self> {
         let tiers = [Method::Fast, Method::Robust, Method::Double, Method::Certified].into_iter();
         let tracers = EPSILONS.into_iter().flat_map(|epsilon| {
@@ -71,7 +71,12 @@ impl Contender {
                 })
             })
         });
-        let both = move |method| [None, Some(level)].map(|level| Self { method, level });
+        let both = move |method| {
+            let packets = (method != Method::Certified).then_some(level);
+            core::iter::once(None)
+                .chain(packets.map(Some))
+                .map(move |level| Self { method, level })
+        };
         tiers.chain(tracers).flat_map(both)
     }
 
@@ -197,11 +202,8 @@ impl Work for Job<'_> {
                 #[inline(always)]
                 || self.packets::<T, Double>(token),
             ),
-            Method::Certified => T::vectorize(
-                token,
-                #[inline(always)]
-                || self.certified::<T>(token),
-            ),
+            // As single rays: it is the completion of each that takes the time.
+            Method::Certified => self.one_by_one(),
             Method::Traced(tracer) => T::vectorize(
                 token,
                 #[inline(always)]
@@ -223,26 +225,6 @@ impl Job<'_> {
             T::select(hits.hit, hits.met.leaf, T::splat(token, f32::INFINITY)).store_numbers(&mut leaf);
             let lanes = t.into_iter().zip(leaf).take(rays.len());
             self.seen.extend(lanes.map(|(t, leaf)| Seen { t, leaf: Some(leaf) }));
-        }
-        Ok(())
-    }
-
-    #[inline(always)]
-    fn certified<T: Lanes>(self, token: T::Token) -> Result<()> {
-        let leaves = self.program.leaves();
-        let mut spans = vec![Span::empty_like(Bounded::exact(T::splat(token, 0.0))); leaves];
-        let mut double = vec![Span::empty_like(Bounded::exact(0.0)); leaves];
-        let mut tie = vec![Span::empty_like(0.0); leaves];
-        for rays in self.rays.chunks(T::LANES) {
-            let found = Packet::<T>::of(token, rays).certify(&self.program, &mut spans)?;
-            for (lane, ray) in rays.iter().enumerate() {
-                let Some(one) = certificate_of(&found, lane) else { continue };
-                let hit = self.program.settle(ray, &one, &mut double, &mut tie)?.hit;
-                self.seen.push(hit.map_or(NOTHING, |hit| Seen {
-                    t: hit.t,
-                    leaf: Some(hit.leaf),
-                }));
-            }
         }
         Ok(())
     }
