@@ -65,6 +65,7 @@ impl Packet {
 
 impl<T: Lanes> Packet<T> {
     /// The first of these rays, one for each lane; lanes beyond them hold none.
+    #[inline(always)]
     #[must_use]
     pub fn of(token: T::Token, rays: &[Ray]) -> Self {
         let lanes = |value: fn(&Ray) -> f32| {

@@ -3,8 +3,8 @@
 use super::scene::{Primitive, Scene};
 use anyhow::Result;
 use core::fmt;
-use gsdf_nostd::{Bounded, CertifiedScratch, Lane, Plain, Program, Ray, Span, SphereTracer};
-use gsdf_simd::{Double, Fast, LaneMask, Lanes, Level, MOST_LANES, Packet, Robust, Tier, Work};
+use gsdf_nostd::{Bounded, CertifiedScratch, Hit, Lane, Plain, Program, ProgramError, Ray, Span, SphereTracer};
+use gsdf_simd::{Double, Fast, Lanes, Level, MOST_LANES, Packet, Robust, Tier, Work};
 
 /// How much is spent on accuracy.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -91,12 +91,11 @@ impl Contender {
     /// # Errors
     /// Where the scene is none, which reference scenes are not.
     pub fn cast(&self, scene: &Scene, seen: &mut Vec<Seen>) -> Result<()> {
-        let program = scene.program()?;
         seen.clear();
-        seen.reserve(scene.rays.len());
+        seen.resize(scene.rays.len(), NOTHING);
         let job = Job {
             method: self.method,
-            program,
+            program: scene.program()?,
             rays: &scene.rays,
             seen,
         };
@@ -127,7 +126,7 @@ struct Job<'a> {
     method: Method,
     program: Program<'a, Primitive>,
     rays: &'a [Ray],
-    seen: &'a mut Vec<Seen>,
+    seen: &'a mut [Seen],
 }
 
 /// How far tracers go: to the end of the scenes, and some.
@@ -144,25 +143,20 @@ impl Job<'_> {
                 let mut single = vec![Span::empty_like(Bounded::exact(0.0)); leaves];
                 let mut double = vec![Span::empty_like(Bounded::exact(0.0)); leaves];
                 let mut tie = vec![Span::empty_like(0.0); leaves];
-                for ray in self.rays {
+                for (ray, seen) in self.rays.iter().zip(self.seen) {
                     let scratch = CertifiedScratch {
                         single: &mut single,
                         double: &mut double,
                         tie: &mut tie,
                     };
-                    let found = self.program.cast_certified(ray, scratch)?;
-                    self.seen.push(found.hit.map_or(NOTHING, |hit| Seen {
-                        t: hit.t,
-                        leaf: Some(hit.leaf),
-                    }));
+                    *seen = self.program.cast_certified(ray, scratch)?.hit.into();
                 }
                 Ok(())
             }
             Method::Traced(tracer) => {
-                for ray in self.rays {
+                for (ray, seen) in self.rays.iter().zip(self.seen) {
                     let traced = tracer.cast(&self.program, &ray.within(0.0..FAR)?);
-                    let t = if traced.hit { traced.t } else { f32::INFINITY };
-                    self.seen.push(Seen { t, leaf: None });
+                    seen.t = if traced.hit { traced.t } else { f32::INFINITY };
                 }
                 Ok(())
             }
@@ -171,81 +165,98 @@ impl Job<'_> {
 
     fn along<T: Lane>(self, like: T) -> Result<()> {
         let mut spans = vec![Span::empty_like(like); self.program.leaves()];
-        for ray in self.rays {
-            let hit = self.program.along(*ray, &mut spans)?.cast();
-            self.seen.push(hit.map_or(NOTHING, |hit| Seen {
-                t: hit.t,
-                leaf: Some(hit.leaf),
-            }));
+        for (ray, seen) in self.rays.iter().zip(self.seen) {
+            *seen = self.program.along(*ray, &mut spans)?.cast().into();
         }
         Ok(())
+    }
+
+    /// Memory for packets in a tier.
+    fn scratch<T: Lanes, A: Tier>(&self, token: T::Token) -> Vec<Span<A::Number<T>>> {
+        vec![Span::empty_like(A::widened(T::splat(token, 0.0))); self.program.leaves()]
+    }
+}
+
+impl From<Option<Hit>> for Seen {
+    fn from(hit: Option<Hit>) -> Self {
+        match hit {
+            Some(hit) => Self {
+                t: hit.t,
+                leaf: Some(hit.leaf),
+            },
+            None => NOTHING,
+        }
     }
 }
 
 impl Work for Job<'_> {
     type Output = Result<()>;
 
+    /// Nothing is allocated where code is compiled for a level: what that calls is not.
     fn run<T: Lanes>(self, token: T::Token) -> Result<()> {
         match self.method {
-            Method::Fast => T::vectorize(
-                token,
-                #[inline(always)]
-                || self.packets::<T, Fast>(token),
-            ),
-            Method::Robust => T::vectorize(
-                token,
-                #[inline(always)]
-                || self.packets::<T, Robust>(token),
-            ),
-            Method::Double => T::vectorize(
-                token,
-                #[inline(always)]
-                || self.packets::<T, Double>(token),
-            ),
+            Method::Fast => {
+                let mut spans = self.scratch::<T, Fast>(token);
+                T::vectorize(
+                    token,
+                    #[inline(always)]
+                    || packets::<T, Fast>(token, self, &mut spans),
+                )?;
+            }
+            Method::Robust => {
+                let mut spans = self.scratch::<T, Robust>(token);
+                T::vectorize(
+                    token,
+                    #[inline(always)]
+                    || packets::<T, Robust>(token, self, &mut spans),
+                )?;
+            }
+            Method::Double => {
+                let mut spans = self.scratch::<T, Double>(token);
+                T::vectorize(
+                    token,
+                    #[inline(always)]
+                    || packets::<T, Double>(token, self, &mut spans),
+                )?;
+            }
             // As single rays: it is the completion of each that takes the time.
-            Method::Certified => self.one_by_one(),
-            Method::Traced(tracer) => T::vectorize(
-                token,
-                #[inline(always)]
-                || self.traced::<T>(token, &tracer),
-            ),
+            Method::Certified => self.one_by_one()?,
+            Method::Traced(tracer) => {
+                let rays = self.rays.iter().map(|ray| ray.within(0.0..FAR)).collect::<Result<Vec<_>, _>>()?;
+                T::vectorize(
+                    token,
+                    #[inline(always)]
+                    || traced::<T>(token, &tracer, &self.program, &rays, self.seen),
+                );
+            }
         }
+        Ok(())
     }
 }
 
-impl Job<'_> {
-    #[inline(always)]
-    fn packets<T: Lanes, A: Tier>(self, token: T::Token) -> Result<()> {
-        let zero = A::widened(T::splat(token, 0.0));
-        let mut spans = vec![Span::empty_like(zero); self.program.leaves()];
-        for rays in self.rays.chunks(T::LANES) {
-            let hits = Packet::<T>::of(token, rays).cast_as::<A, _>(token, &self.program, &mut spans)?;
-            let (mut t, mut leaf) = ([0.0; MOST_LANES], [0; MOST_LANES]);
-            hits.t.store(&mut t);
-            T::select(hits.hit, hits.met.leaf, T::splat(token, f32::INFINITY)).store_numbers(&mut leaf);
-            let lanes = t.into_iter().zip(leaf).take(rays.len());
-            self.seen.extend(lanes.map(|(t, leaf)| Seen { t, leaf: Some(leaf) }));
+#[inline(always)]
+fn packets<T: Lanes, A: Tier>(token: T::Token, job: Job<'_>, spans: &mut [Span<A::Number<T>>]) -> Result<(), ProgramError> {
+    let Job { program, rays, seen, .. } = job;
+    for (rays, seen) in rays.chunks(T::LANES).zip(seen.chunks_mut(T::LANES)) {
+        let hits = Packet::<T>::of(token, rays).cast_as::<A, _>(token, &program, spans)?;
+        let (mut t, mut leaf) = ([0.0; MOST_LANES], [0; MOST_LANES]);
+        hits.t.store(&mut t);
+        T::select(hits.hit, hits.met.leaf, T::splat(token, f32::INFINITY)).store_numbers(&mut leaf);
+        for (place, (t, leaf)) in seen.iter_mut().zip(t.into_iter().zip(leaf)) {
+            *place = Seen { t, leaf: Some(leaf) };
         }
-        Ok(())
     }
+    Ok(())
+}
 
-    #[inline(always)]
-    fn traced<T: Lanes>(self, token: T::Token, tracer: &SphereTracer) -> Result<()> {
-        let mut within = Vec::with_capacity(MOST_LANES);
-        for rays in self.rays.chunks(T::LANES) {
-            within.clear();
-            for ray in rays {
-                within.push(ray.within(0.0..FAR)?);
-            }
-            let traced = Packet::<T>::of(token, &within).trace(tracer, &self.program);
-            let (mut t, hit) = ([0.0; MOST_LANES], traced.hit.to_bits());
-            traced.t.store(&mut t);
-            let lanes = t.into_iter().enumerate().take(rays.len());
-            self.seen.extend(lanes.map(|(lane, t)| Seen {
-                t: if hit >> lane & 1 == 1 { t } else { f32::INFINITY },
-                leaf: None,
-            }));
+#[inline(always)]
+fn traced<T: Lanes>(token: T::Token, tracer: &SphereTracer, program: &Program<'_, Primitive>, rays: &[Ray], seen: &mut [Seen]) {
+    for (rays, seen) in rays.chunks(T::LANES).zip(seen.chunks_mut(T::LANES)) {
+        let found = Packet::<T>::of(token, rays).trace(tracer, program);
+        let mut t = [0.0; MOST_LANES];
+        T::select(found.hit, found.t, T::splat(token, f32::INFINITY)).store(&mut t);
+        for (place, t) in seen.iter_mut().zip(t) {
+            place.t = t;
         }
-        Ok(())
     }
 }
