@@ -65,10 +65,14 @@ mod tests {
         let program: Program<'_, Ball> = PAIR.program();
         let (mut certain, mut uncertain) = (0, 0);
         for row in 0..200_u16 {
-            let at = |lane: u16| f32::from(row * 8 + lane) * 0.0025 - 2.0;
             let rays: [Ray; 8] = core::array::from_fn(|lane| {
-                let x = at(lane as u16);
-                Ray::new(vec3(x, x * x * 0.1, -1e3), vec3(0.0, 0.0, 1.0 + x * 0.01)).unwrap()
+                // Half of them past the rim of the first ball, which they reach eleven times as far from the axis.
+                let x = if lane % 2 == 0 {
+                    f32::from(row) * 0.02 - 2.0
+                } else {
+                    (1.0 + (f32::from(row) - 100.0) * 1e-6) / 11.0
+                };
+                Ray::new(vec3(x, 0.0, -1e3), vec3(x * 0.01, 0.0, 1.0)).unwrap()
             });
             let empty = Span::empty_like(Bounded::exact(crate::F32x8::splat(0.0)));
             let found = Packet::new(&rays).certify(&program, &mut [empty; 2]).unwrap();
@@ -86,6 +90,6 @@ mod tests {
                 }
             }
         }
-        assert!(certain > 1000 && uncertain > 0, "{certain} certain, {uncertain} not");
+        assert!(certain > 500 && uncertain > 100, "{certain} certain, {uncertain} not");
     }
 }

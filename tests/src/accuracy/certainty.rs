@@ -52,10 +52,11 @@ impl Cell {
     pub fn certainty(self, rays: Range<u64>) -> Certainty {
         let targets: Vec<Range<u64>> = Self::by_target(rays).collect();
         let one = |rays: Range<u64>| {
-            let solid = self.trial(rays.start).solid;
+            let target = self.target(rays.start);
+            let solid = target.solid();
             let leaf = solid.leaf().expect("corpora make valid shapes");
             let reference = Reference::new(solid);
-            let certain = rays.map(|ray| one_ray(&self.trial(ray), ray, &leaf, &reference));
+            let certain = rays.map(|ray| one_ray(&self.aimed(&target, ray), ray, &leaf, &reference));
             certain.fold(Certainty::default(), Certainty::joined)
         };
         targets.into_par_iter().map(one).reduce(Certainty::default, Certainty::joined)

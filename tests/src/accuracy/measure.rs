@@ -136,7 +136,8 @@ impl Cell {
         Pcg64::from_seed(seed)
     }
 
-    fn target(self, ray: u64) -> Target {
+    /// What a ray is aimed at, with many others.
+    pub(super) fn target(self, ray: u64) -> Target {
         // Targets have the odd numbers, rays the even ones.
         Target::random(&mut self.seed(2 * (ray / RAYS_AT_ONE) + 1), self.leaf, self.corpus)
     }
@@ -144,7 +145,12 @@ impl Cell {
     /// A ray by its number.
     #[must_use]
     pub fn trial(self, ray: u64) -> Trial {
-        self.target(ray).ray(&mut self.seed(2 * ray))
+        self.aimed(&self.target(ray), ray)
+    }
+
+    /// A ray by its number, aimed at its target.
+    pub(super) fn aimed(self, target: &Target, ray: u64) -> Trial {
+        target.ray(&mut self.seed(2 * ray))
     }
 
     /// Ranges of rays, cut into those that are aimed at one target.
@@ -180,7 +186,7 @@ impl Cell {
         };
         let mut measured = Measured::default();
         for ray in rays {
-            let trial = target.ray(&mut self.seed(2 * ray));
+            let trial = self.aimed(&target, ray);
             let (truth, was_asked) = view.truth(&trial);
             measured.asked += u64::from(was_asked);
             for arithmetic in self.arithmetics() {
