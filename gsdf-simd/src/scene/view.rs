@@ -79,7 +79,12 @@ impl<'s, 'a, L: Solid> View<'s, 'a, L> {
 #[inline]
 fn seen_from<L: Solid>(solid: &L, pose: Option<&Transform>, eye: Vec3) -> L::Seen<f32> {
     let eye = V3::from(eye);
-    solid.seen_from(pose.map_or(eye, |pose| pose.point_to_local(eye)))
+    // No closure: it would be compiled apart from what is compiled for a level.
+    let eye = match pose {
+        Some(pose) => pose.point_to_local(eye),
+        None => eye,
+    };
+    solid.seen_from(eye)
 }
 
 /// Whether a raster's numbers stay so far within the range of rays that none of its rays need be looked at.
