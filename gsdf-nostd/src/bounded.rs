@@ -135,17 +135,22 @@ impl<T: Real> Bounded<T> {
         (self.value.abs() + self.error).eq(self.error.splat_like(0.0))
     }
 
-    /// A value that was computed from operands which are off by `inherited`, with what rounding added to it.
+    /// A value that was computed from operands which are off by `inherited`, with what rounding added to it. What is infinite,
+    /// or no number, is exactly so where the operands were, and not where a finite number has overflowed.
     #[inline(always)]
-    fn rounded(value: T, inherited: T, rounding: T) -> Self {
+    fn rounded(value: T, inherited: T, rounding: T, endless: T::Mask) -> Self {
         let zero = value.splat_like(0.0);
-        let finite = value.abs().lt(zero.splat_like(f32::INFINITY));
-        // What is infinite, or no number, without a rounding before is so exactly.
-        let beyond = T::select(inherited.eq(zero), zero, zero.splat_like(f32::INFINITY));
+        let finite = Self::is_finite(value);
+        let beyond = T::select(inherited.eq(zero) & endless, zero, zero.splat_like(f32::INFINITY));
         Self {
             value,
             error: T::select(finite, inherited + rounding, beyond),
         }
+    }
+
+    #[inline(always)]
+    fn is_finite(value: T) -> T::Mask {
+        value.abs().lt(value.splat_like(f32::INFINITY))
     }
 
     /// What half a unit in the last place is, at the most.
@@ -175,7 +180,8 @@ impl<T: Real> Add for Bounded<T> {
         let value = a + b;
         let (a_part, b_part) = (value - b, value - (value - b));
         let lost = ((a - a_part) + (b - b_part)).abs();
-        Self::rounded(value, self.error + other.error, lost)
+        let endless = !(Self::is_finite(a) & Self::is_finite(b));
+        Self::rounded(value, self.error + other.error, lost, endless)
     }
 }
 
@@ -188,7 +194,8 @@ impl<T: Real> Sub for Bounded<T> {
         let value = a - b;
         let (a_part, b_part) = (value + b, (value + b) - value);
         let lost = ((a - a_part) + (b_part - b)).abs();
-        Self::rounded(value, self.error + other.error, lost)
+        let endless = !(Self::is_finite(a) & Self::is_finite(b));
+        Self::rounded(value, self.error + other.error, lost, endless)
     }
 }
 
@@ -208,6 +215,7 @@ impl<T: Real> Mul for Bounded<T> {
             value,
             T::select(exact | nothing, zero, inherited),
             T::select(nothing, zero, rounding),
+            !(Self::is_finite(self.value) & Self::is_finite(other.value)),
         )
     }
 }
@@ -228,6 +236,7 @@ impl<T: Real> Div for Bounded<T> {
             value,
             T::select(exact, zero, inherited),
             T::select(self.is_nothing(), zero, rounding),
+            !Self::is_finite(self.value) | other.is_nothing(),
         )
     }
 }
@@ -273,7 +282,7 @@ impl<T: Real> Real for Bounded<T> {
         // `sqrt(x) - sqrt(x - e)` is at most `e / sqrt(x)`.
         let inherited = T::select(self.reach().lt(self.value), self.error / value, value + most);
         let inherited = T::select(self.is_exact(), zero, inherited);
-        Self::rounded(value, inherited, Self::half_ulp(value))
+        Self::rounded(value, inherited, Self::half_ulp(value), !Self::is_finite(self.value))
     }
     #[inline(always)]
     fn abs(self) -> Self {
