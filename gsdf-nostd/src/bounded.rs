@@ -10,7 +10,7 @@ use core::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 /// Art in Error Analysis, 1985): a sum adds what it really lost (D. Knuth's two-sum), a product half a unit in its last
 /// place. Comparisons know whether the bounds leave room for the other outcome ([`Judged`]).
 ///
-/// What a ray meets is computed from such numbers by [`Program::certify`](crate::Program::certify).
+/// What a ray meets is computed from such numbers by [`Program::cast_certified`](crate::Program::cast_certified).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bounded<T> {
     /// The number as `T` has it.

@@ -117,7 +117,9 @@ impl<T: Real> SeenCone<T> {
 
         let still = k2 * profile.axis.norm_squared() * toward.vv * zero.splat_like(PARALLEL_TILT_SQUARED);
         let constant = (across2 + growth2).lt(still);
-        let within = constant & c.lt(zero) & zero.lt(radius);
+        // Far away it may cross the side all the same.
+        let tilted = constant & !(across2 + growth2).eq(zero);
+        let within = constant & c.unknown_where(tilted).lt(zero) & zero.lt(radius);
         let steep = a.lt(zero) & !constant;
         let shallow = !steep & !constant & zero.lt(d);
         if nowhere(steep | shallow | within) {
@@ -147,7 +149,6 @@ impl<T: Real> SeenCone<T> {
         let inward = T::select(steep, -growth, b - a * shift).lt(zero);
         let enter = T::select(on & inward, zero, enter);
         let exit = T::select(on & !inward, zero, exit);
-        let tilted = constant & !(across2 + growth2).eq(zero);
         Span::between_where(
             (steep | shallow | within) & ours,
             T::select(within, -infinity, enter).unknown_where(tilted),

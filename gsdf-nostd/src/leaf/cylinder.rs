@@ -141,13 +141,14 @@ impl<T: Real> SeenSide<T> {
         } else {
             b.squared() - a * self.c
         };
-        let inside = self.c.lt(zero);
+        // Far away it may cross the side all the same.
+        let tilted = parallel & !a.eq(zero);
+        let inside = self.c.unknown_where(tilted).lt(zero);
         let met = (parallel & inside) | (!parallel & zero.lt(d));
         if nowhere(met) {
             return Span::empty_like(zero);
         }
         let (enter, exit) = roots(per_a, b, self.c, d);
-        let tilted = parallel & !a.eq(zero);
         Span::between_where(
             met,
             T::select(parallel, zero.splat_like(f32::NEG_INFINITY), enter).unknown_where(tilted),
