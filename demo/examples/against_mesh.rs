@@ -60,6 +60,10 @@ const FEELERS: u16 = 24;
 /// Up to which part of the rays may be near an edge; were there more, they could hide what is sought.
 const MOST_AT_EDGES: f32 = 0.01;
 
+/// One ray in so many may be off by more than that: where a facet ends beside a silhouette, and a feeler misses the next one.
+/// A hole that is moved by a tenth puts hundreds off.
+const MOST_BEYOND: u64 = 25_000;
+
 fn main() -> Result<()> {
     let Arguments { model, mesh, fa, fs, size } = Arguments::parse();
     ensure!(fa > 0.0 && fs > 0.0, "--fa and --fs are those that OpenSCAD was given, and above 0");
@@ -292,7 +296,7 @@ impl Tally {
             self.outline_beyond
         );
         ensure!(
-            self.depth_beyond == 0,
+            MOST_BEYOND * self.depth_beyond <= self.hits,
             "{} rays meet model and mesh at different distances",
             self.depth_beyond
         );
