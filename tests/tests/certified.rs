@@ -38,7 +38,7 @@ fn least_share(cell: Cell) -> f64 {
     match cell.corpus {
         Corpus::Moderate | Corpus::Lengths => 0.999,
         Corpus::Units | Corpus::Limits => 0.99,
-        Corpus::Angles => 0.97,
+        Corpus::Angles => 0.9,
         Corpus::Inside => 0.9,
         // To ten million radii, where `f32` itself is off by half a radius.
         Corpus::Far => 0.45,
