@@ -1,12 +1,9 @@
-//! What must have the same bits, or hold, whatever the processor: every arithmetic, every leaf, packets, pictures, and what
-//! boards compute. CI runs it in native builds too.
+//! What must have the same bits, or hold, whatever the processor: every arithmetic, every leaf, packets, and what boards
+//! compute. CI runs it in native builds too.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
-mod batches;
 mod boards;
 mod conformance;
 mod golden;
-mod images;
 mod lanes;
 mod packets;
-mod tiled;

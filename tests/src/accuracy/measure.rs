@@ -17,7 +17,7 @@ use rayon::prelude::*;
 pub const PART: u64 = 1 << 15;
 
 /// How many rays in succession are aimed at one solid.
-const RAYS_AT_ONE: u64 = 512;
+pub(super) const RAYS_AT_ONE: u64 = 512;
 
 /// How much larger than `|t|` the condition of a crossing may be for its error to count in units in the last place.
 pub const WELL_CONDITIONED: f64 = 64.0;

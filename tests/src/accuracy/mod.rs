@@ -15,6 +15,7 @@ pub mod command;
 mod corpus;
 mod measure;
 pub mod record;
+mod solids;
 mod statistics;
 pub mod table;
 mod trial;

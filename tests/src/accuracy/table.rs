@@ -1,6 +1,7 @@
 //! The table: what is allowed in every cell, and whether what was measured is.
 
-use super::measure::{Cell, Floor, PART, WELL_CONDITIONED, is_curved};
+use super::corpus::Corpus;
+use super::measure::{Cell, Floor, PART, RAYS_AT_ONE, WELL_CONDITIONED, is_curved};
 use super::record::Record;
 use super::statistics::{Summary, Worst};
 use super::trial::Arithmetic;
@@ -22,8 +23,13 @@ pub const LEAST_RAYS: u64 = 1_000_000;
 const ROOM: f64 = 4.0;
 
 /// By how much the largest errors of textbook formulas may exceed what was measured. They are the larger the nearer a ray
-/// grazes, without end: the largest of three million rays is well beyond that of one million.
+/// grazes: the largest of three million rays is well beyond that of one million.
 const ROOM_OF_PLAIN: f64 = 16.0;
+
+/// What textbook formulas may lose anywhere, in units roundoff: half of the digits. Their discriminant is off by some `k` units
+/// roundoff `u` of `B² + A |C|`, so that a root near zero of it is off by `√(k u)` of the size of `B`, which is `√(k / u)` units: 2^12
+/// times 8, as none is off by more than `k = 64`.
+const HALF_OF_THE_DIGITS: f64 = 32_768.0;
 
 /// The most that is allowed in a cell.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -138,15 +144,15 @@ impl Figure {
 impl Allowed {
     /// The bounds that follow from what was measured: of robust arithmetics the [`Figure`] of the leaf, where that is a
     /// bound, and else four times as much, rounded up to two digits; for the largest error in units in the last place what
-    /// that makes of the worst condition. Nothing is held to less than one ray of a [`PART`], or to less than four units in
-    /// the last place.
+    /// that makes of the worst condition; of textbook formulas half of the digits, or sixteen times what was measured. Nothing is held to less than one ray of a [`PART`], or all
+    /// parallel ones at one solid, or to less than four units in the last place.
     #[must_use]
     pub fn following_from(found: &Summary, cell: Cell, arithmetic: Arithmetic) -> Self {
         let largest = found.conditioned.error;
         let (conditioned, most) = match arithmetic {
             Arithmetic::Plain => (
-                rounded_up(ROOM_OF_PLAIN * largest),
-                rounded_up(ROOM_OF_PLAIN * found.most.error.max(1.0)),
+                rounded_up((ROOM_OF_PLAIN * largest).max(HALF_OF_THE_DIGITS)),
+                rounded_up((ROOM_OF_PLAIN * found.most.error).max(HALF_OF_THE_DIGITS)),
             ),
             Arithmetic::Robust | Arithmetic::Double => {
                 let figure = Figure::of(cell.leaf).bound(largest);
@@ -155,8 +161,15 @@ impl Allowed {
                 (conditioned, rounded_up(WELL_CONDITIONED * conditioned))
             }
         };
+        // Rays that are exactly parallel to a face of one solid, or but for denormal numbers, share its luck: if one may be wrong,
+        // all may.
+        let together = if matches!(cell.corpus, Corpus::Parallel | Corpus::Denormals) && found.wrong > 0 {
+            RAYS_AT_ONE
+        } else {
+            1
+        };
         Self {
-            wrong: rounded_up((ROOM * found.wrong_share).max(1.0 / PART as f64)).min(1.0),
+            wrong: rounded_up((ROOM * found.wrong_share).max(together as f64 / PART as f64)).min(1.0),
             p99: rounded_up(ROOM * found.p99.max(1.0)),
             most,
             conditioned,
@@ -255,8 +268,7 @@ pub fn floors(cell: Cell) -> [Floor; 3] {
 
 #[cfg(test)]
 mod tests {
-    use super::{Allowed, Arithmetic, Cell, Figure, Summary, Worst, rounded_up};
-    use crate::accuracy::Corpus;
+    use super::{Allowed, Arithmetic, Cell, Corpus, Figure, Summary, Worst, rounded_up};
 
     const FOUND: Summary = Summary {
         rays: 100_000,
@@ -306,7 +318,7 @@ mod tests {
         };
         assert_eq!(bounds(&FOUND, Arithmetic::Robust), expected);
         let plain = bounds(&FOUND, Arithmetic::Plain);
-        assert_eq!((plain.most, plain.conditioned), (160.0, 40.0));
+        assert_eq!((plain.most, plain.conditioned), (33_000.0, 33_000.0));
         let mut worse = FOUND;
         worse.conditioned.error = 3.6;
         assert_eq!(bounds(&worse, Arithmetic::Double).conditioned, 15.0);
@@ -318,6 +330,29 @@ mod tests {
             Arithmetic::Robust,
         );
         assert_eq!((none.wrong, none.p99, none.most, none.conditioned), (3.1e-5, 4.0, 230.0, 3.5));
+    }
+
+    #[test]
+    fn parallel_rays_at_one_solid_are_wrong_together() {
+        let parallel = Cell {
+            leaf: 17,
+            corpus: Corpus::Parallel,
+        };
+        let few = Summary {
+            wrong: 1,
+            wrong_share: 3e-5,
+            ..FOUND
+        };
+        let allowed = |found: &Summary| Allowed::following_from(found, parallel, Arithmetic::Double).wrong;
+        assert_eq!(allowed(&few), 0.016);
+        assert_eq!(
+            allowed(&Summary {
+                wrong: 0,
+                wrong_share: 0.0,
+                ..FOUND
+            }),
+            3.1e-5
+        );
     }
 
     #[test]
