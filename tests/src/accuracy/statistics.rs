@@ -1,10 +1,15 @@
 //! What is kept of the errors of many rays.
 
+use super::measure::RAYS_AT_ONE;
+
 /// The parts an octave of errors is counted in.
 const PARTS: i32 = 8;
 /// Errors are counted from 2^-6 units in the last place to 2^122.
 const LOWEST: i32 = -6;
 const BUCKETS: usize = 1024;
+
+/// Of fewer crossings than this nobody can tell what one in a hundred exceeds: half of them may be rays at one solid.
+const LEAST_CROSSINGS: u64 = 2 * RAYS_AT_ONE;
 
 /// The errors of one kind of leaf in one corpus and arithmetic.
 #[derive(Clone, Debug)]
@@ -34,7 +39,8 @@ pub struct Summary {
     pub first_wrong: Option<u64>,
     /// The share of them; of rays that were measured in parts, the largest of any part.
     pub wrong_share: f64,
-    /// The error that one crossing in a hundred exceeds, in units in the last place; again the largest of any part.
+    /// The error that one crossing in a hundred exceeds, in units in the last place; again the largest of any part
+    /// that has enough of them.
     pub p99: f64,
     /// The largest error of a well-conditioned crossing, in units in the last place.
     pub most: Worst,
@@ -102,10 +108,14 @@ impl Statistics {
         self.first_wrong = Some(self.first_wrong.map_or(ray, |first| first.min(ray)));
     }
 
-    /// The error that one crossing in a hundred exceeds, rounded up to an eighth of an octave; 0 without crossings.
+    /// The error that one crossing in a hundred exceeds, rounded up to an eighth of an octave; 0 where crossings are so few
+    /// ([`LEAST_CROSSINGS`]) that it would be that of a single solid.
     #[must_use]
     pub fn p99(&self) -> f64 {
         let crossings: u64 = self.counts.iter().map(|&count| u64::from(count)).sum();
+        if crossings < LEAST_CROSSINGS {
+            return 0.0;
+        }
         let mut above = 0;
         for (part, &count) in self.counts.iter().enumerate().rev() {
             above += u64::from(count);
@@ -157,12 +167,18 @@ mod tests {
     fn one_in_a_hundred_is_above() {
         let mut statistics = Statistics::default();
         assert_eq!(statistics.p99(), 0.0);
-        for _ in 0..98 {
+        for _ in 0..980 {
             statistics.count(0.0);
         }
-        statistics.count(3.0);
-        statistics.count(1e9);
-        // Of a hundred crossings the second largest, rounded up.
+        for _ in 0..10 {
+            statistics.count(3.0);
+            statistics.count(1e9);
+        }
+        // Of a thousand crossings one in a hundred may be anything, but a thousand are not enough.
+        assert_eq!(statistics.p99(), 0.0);
+        for _ in 0..30 {
+            statistics.count(0.0);
+        }
         let p99 = statistics.p99();
         assert!((3.0..3.3).contains(&p99), "{p99}");
     }
