@@ -13,7 +13,10 @@ use core::ops::{BitAnd, BitOr, Not};
 /// The values are those of `T`, bit for bit, wherever a formula's decisions are certain. Beside each goes a bound on how far
 /// it may be from what the same formula gives in exact arithmetic (J. H. Wilkinson's running error analysis, The State of the
 /// Art in Error Analysis, 1985): a sum adds what it really lost (D. Knuth's two-sum), a product half a unit in its last
-/// place. Comparisons know whether the bounds leave room for the other outcome ([`Judged`]).
+/// place. Scalar and vector products and the discriminants of quadratics are bounded as a whole, which takes fewer operations
+/// than theirs one by one. Comparisons know whether the bounds leave room for the other outcome ([`Judged`]).
+///
+/// Cost: some four times the operations of `T`.
 ///
 /// What a ray meets is computed from such numbers by [`Program::cast_certified`](crate::Program::cast_certified).
 #[derive(Clone, Copy, Debug, PartialEq)]
