@@ -140,7 +140,7 @@ pub use leaf::{
     Pyramid, Quad, Rhombus, RoundedCone, Solid, SolidAngle, Sphere, Surface, Triangle, TriangularPrism,
 };
 pub use plain::Plain;
-pub use quadratic::roots;
+pub use quadratic::{Chord, roots};
 pub use range::{MAX_LENGTH, MAX_SPEED, MAX_STRETCH, MIN_LENGTH, UNIT_TOLERANCE};
 pub use ray::{Line, Ray, RayError};
 pub use real::{Lane, Mask, Real};

@@ -1,6 +1,7 @@
 //! The quadratic inequality `A t² + 2 B t + C < 0` whose discriminant is known better than its coefficients tell.
 
 use crate::real::Real;
+use crate::vec3::V3;
 
 /// The two roots of `A t² + 2 B t + C` in ascending order, from `q = -(B + copysign(√D, B))` as `q / A` and `C / q`.
 ///
@@ -17,6 +18,47 @@ pub fn roots<T: Real>(per_a: T, b: T, c: T, d: T) -> (T, T) {
     let q = -(b + d.sqrt().copysign(b.given()));
     let (x, y) = (q * per_a, c / q);
     (x.min(y), x.max(y))
+}
+
+/// What a line and a ball, or a line and a cylinder as seen along its axis, have in common: `A t² + 2 B t + C < 0` with `A = v.v`,
+/// `B = w.v`, `C = w.w - r²`.
+#[derive(Clone, Copy, Debug)]
+pub struct Chord<T> {
+    /// From the centre to the origin of the line.
+    pub w: V3<T>,
+    /// The direction of the line.
+    pub v: V3<T>,
+    /// `A`.
+    pub a: T,
+    /// `1 / A`.
+    pub per_a: T,
+    /// `C`, zero where the origin lies on the surface.
+    pub c: T,
+    /// The square of the radius.
+    pub r2: T,
+}
+
+impl<T: Real> Chord<T> {
+    /// `B`, and the discriminant: positive where the line meets the solid.
+    #[inline(always)]
+    pub(crate) fn terms(&self) -> (T, T) {
+        let b = self.w.dot(self.v);
+        (b, T::discriminant(self, b))
+    }
+
+    /// From the part of `w` perpendicular to the line, `l = w - (B/A) v`, as `A (r² - l.l)`: the error of `B/A` lies along `v`,
+    /// hence enters only to second order.
+    #[inline(always)]
+    pub(crate) fn own_discriminant(&self, b: T) -> T {
+        if T::ROBUST {
+            let l = self.w - self.v.scaled(b * self.per_a);
+            let away = self.a * (self.r2 - l.norm_squared());
+            // On the surface the roots are 0 and -2B/A.
+            T::select(self.c.eq(b.splat_like(0.0)), b.squared(), away)
+        } else {
+            b.squared() - self.a * self.c
+        }
+    }
 }
 
 #[cfg(test)]

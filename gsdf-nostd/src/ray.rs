@@ -1,5 +1,6 @@
 //! Rays, refused when they are not rays.
 
+use crate::bounded::Bounded;
 use crate::range::{MAX_LENGTH, MAX_SPEED, max_norm, max_norm_bits, unit_scale};
 use crate::real::{Lane, Real};
 use crate::span::Span;
@@ -209,6 +210,18 @@ pub struct Line<T> {
     pub origin: V3<T>,
     /// The direction.
     pub toward: Toward<T>,
+}
+
+impl<T: Real> Line<T> {
+    /// The same line, which is exact, with bounds on the errors of what was computed from it.
+    #[inline(always)]
+    pub fn bounded(&self) -> Line<Bounded<T>> {
+        let V3 { x, y, z } = self.origin;
+        Line {
+            origin: V3::new(Bounded::exact(x), Bounded::exact(y), Bounded::exact(z)),
+            toward: self.toward.bounded(),
+        }
+    }
 }
 
 const fn is_finite(v: Vec3) -> bool {

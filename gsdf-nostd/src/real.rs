@@ -4,7 +4,9 @@
 //! crate brings. To give the same bits everywhere the trait holds only operations that IEEE 754 rounds correctly, or
 //! that only pick or flip bits: no fused multiply-add, no estimates of reciprocals, no sums across lanes.
 
+use crate::quadratic::Chord;
 use crate::root;
+use crate::vec3::V3;
 use core::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
 /// The outcome of a comparison: `bool` for a scalar, one truth value per lane for a packet.
@@ -131,6 +133,25 @@ pub trait Real: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Se
     }
 
     // What follows makes a difference to arithmetics alone that bound their errors: `Bounded`.
+
+    /// The scalar product, `(x x' + y y') + z z'`.
+    #[inline(always)]
+    #[must_use]
+    fn dot(a: V3<Self>, b: V3<Self>) -> Self {
+        (a.x * b.x + a.y * b.y) + a.z * b.z
+    }
+    /// The vector product; each coordinate is a difference of two products.
+    #[inline(always)]
+    #[must_use]
+    fn cross(a: V3<Self>, b: V3<Self>) -> V3<Self> {
+        V3::new(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x)
+    }
+    /// The discriminant of a chord whose `B` is known.
+    #[inline(always)]
+    #[must_use]
+    fn discriminant(chord: &Chord<Self>, b: Self) -> Self {
+        chord.own_discriminant(b)
+    }
 
     /// The value as it is, right or not: for a number of which a formula only asks to be near to another one.
     #[inline(always)]

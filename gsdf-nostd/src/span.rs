@@ -1,5 +1,6 @@
 //! What one ray sees of one solid: a half-open span of its parameter.
 
+use crate::bounded::Bounded;
 use crate::real::{Mask, Real};
 
 /// The part of a ray inside a convex solid: the parameters `enter <= t < exit`.
@@ -92,6 +93,17 @@ impl<T: Real> Span<T> {
     #[inline(always)]
     pub fn contains_after(self, t: T) -> T::Mask {
         self.enter.le(t) & t.lt(self.exit)
+    }
+}
+
+impl<T: Real> Span<Bounded<T>> {
+    /// The ends as they were computed.
+    #[inline(always)]
+    pub(crate) fn values(self) -> Span<T> {
+        Span {
+            enter: self.enter.value,
+            exit: self.exit.value,
+        }
     }
 }
 

@@ -1,5 +1,6 @@
 //! What depends on a ray's direction alone.
 
+use crate::bounded::Bounded;
 use crate::range::{LEAST_SQUARE, PARALLEL_SPEED};
 use crate::real::Real;
 use crate::vec3::V3;
@@ -42,6 +43,32 @@ impl<T: Real> Toward<T> {
             vv,
             per_vv: vv.splat_like(1.0) / vv,
             per_component: v,
+        }
+    }
+
+    /// The same with bounds on the errors of what was computed from `v`, which is exact.
+    #[inline(always)]
+    pub(crate) fn bounded(&self) -> Toward<Bounded<T>> {
+        let off_by = |value: T, roundoffs: f32| Bounded {
+            value,
+            error: value.abs() * value.splat_like(roundoffs * T::ROUNDOFF),
+        };
+        let reciprocal = |speed: T, per_speed: T| {
+            let infinite = per_speed.abs().eq(per_speed.splat_like(f32::INFINITY));
+            let known = off_by(per_speed, 1.0);
+            let exact = Bounded::exact(per_speed);
+            Bounded {
+                value: per_speed,
+                // Of a speed that was taken for zero nothing is known.
+                error: T::select(infinite & speed.eq(speed.splat_like(0.0)), exact.error, known.error),
+            }
+        };
+        let (v, per) = (self.v, self.per_component);
+        Toward {
+            v: V3::new(Bounded::exact(v.x), Bounded::exact(v.y), Bounded::exact(v.z)),
+            vv: off_by(self.vv, 3.0),
+            per_vv: off_by(self.per_vv, 5.0),
+            per_component: V3::new(reciprocal(v.x, per.x), reciprocal(v.y, per.y), reciprocal(v.z, per.z)),
         }
     }
 

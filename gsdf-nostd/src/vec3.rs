@@ -41,18 +41,14 @@ impl<T: Real> V3<T> {
     /// The scalar product, `(x x' + y y') + z z'`.
     #[inline(always)]
     pub fn dot(self, other: Self) -> T {
-        (self.x * other.x + self.y * other.y) + self.z * other.z
+        T::dot(self, other)
     }
 
     /// The vector product; each coordinate is a difference of two products.
     #[inline(always)]
     #[must_use]
     pub fn cross(self, other: Self) -> Self {
-        Self::new(
-            self.y * other.z - self.z * other.y,
-            self.z * other.x - self.x * other.z,
-            self.x * other.y - self.y * other.x,
-        )
+        T::cross(self, other)
     }
 
     /// The vector times a number.

@@ -78,7 +78,7 @@ mod tests {
             let found = Packet::new(&rays).certify(&program, &mut [empty; 2]).unwrap();
             for (lane, ray) in rays.iter().enumerate() {
                 let mut spans = [Span::empty_like(Bounded::exact(0.0_f32)); 2];
-                program.spans_along(&ray.line(Bounded::exact(0.0)), Anywhere, &mut spans);
+                program.spans_along(&ray.line(0.0).bounded(), Anywhere, &mut spans);
                 let alone = certify(program.nodes(), &spans, ray.start_on_line(0.0));
                 let own = certificate_of(&found, lane).unwrap();
                 assert_eq!(own.sure, alone.sure, "{ray:?}");

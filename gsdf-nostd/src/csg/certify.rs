@@ -1,8 +1,8 @@
 //! Crossings that are certain: the march over spans whose ends know how wrong they may be.
 
 use super::node::Node;
-use super::sweep::sweep;
-use crate::bounded::Bounded;
+use super::sweep::sweep_values;
+use crate::bounded::{Bounded, SLACK};
 use crate::real::{Mask, Real};
 use crate::span::Span;
 
@@ -24,76 +24,107 @@ pub struct Certificate<T: Real> {
     pub sweeps: u32,
 }
 
-/// What is known of the roots within a window.
-struct Within<T: Real> {
-    count: T,
+/// The surroundings of a root: how far it may be off, and whose it is.
+struct Window<T: Real> {
+    reach: T,
     leaf: T,
     at_enter: T::Mask,
 }
 
-/// The roots of all leaves that may lie from `low` to `high`.
+/// By how much the ends at `t` may be off, and the last of them.
 #[inline(always)]
-fn roots_within<T: Real>(spans: &[Span<Bounded<T>>], low: T, high: T) -> Within<T> {
-    let (zero, one) = (low.splat_like(0.0), low.splat_like(1.0));
-    let mut within = Within {
-        count: zero,
+fn window_at<T: Real>(spans: &[Span<Bounded<T>>], t: T) -> Window<T> {
+    let (zero, one) = (t.splat_like(0.0), t.splat_like(1.0));
+    let mut window = Window {
+        reach: zero,
         leaf: zero.splat_like(f32::INFINITY),
-        at_enter: low.lt(low),
+        at_enter: t.lt(t),
     };
     let mut number = zero;
     for span in spans {
-        for (end, is_enter) in [(span.enter, true), (span.exit, false)] {
-            let (least, most) = end.ends();
-            // NaN, where nothing is known of an end, is everywhere.
-            let here = !(high.lt(least) | most.lt(low));
-            within.count = T::select(here, within.count + one, within.count);
-            within.leaf = T::select(here, number, within.leaf);
-            within.at_enter = (here & here.splat_like(is_enter)) | (!here & within.at_enter);
-        }
+        let (enters, exits) = (span.enter.value.eq(t), span.exit.value.eq(t));
+        let error = T::select(enters, span.enter.error, zero) + T::select(exits, span.exit.error, zero);
+        window.reach = window.reach + error;
+        window.leaf = T::select(enters | exits, number, window.leaf);
+        window.at_enter = enters | (window.at_enter & !exits);
         number = number + one;
     }
-    within
+    window
+}
+
+/// How many ends may be within `reach` of `t`.
+#[inline(always)]
+fn ends_near<T: Real>(spans: &[Span<Bounded<T>>], t: T, reach: T) -> T {
+    let (zero, one, slack) = (t.splat_like(0.0), t.splat_like(1.0), t.splat_like(SLACK));
+    let mut count = zero;
+    for span in spans {
+        for end in [span.enter, span.exit] {
+            // NaN, where nothing is known of an end, is near to everything.
+            let apart = (end.error * slack + reach).lt((end.value - t).abs());
+            count = T::select(apart, count, count + one);
+        }
+    }
+    count
+}
+
+/// Whether no end may be at `t` but one that is exactly there.
+#[inline(always)]
+fn is_clear<T: Real>(spans: &[Span<Bounded<T>>], t: T) -> T::Mask {
+    let (zero, slack) = (t.splat_like(0.0), t.splat_like(SLACK));
+    let mut clear = t.eq(t);
+    for span in spans {
+        for end in [span.enter, span.exit] {
+            clear = clear & ((end.error * slack).lt((end.value - t).abs()) | end.error.eq(zero));
+        }
+    }
+    clear
 }
 
 /// Marches from `start >= 0` to the first crossing of the program's boundary, from window to window: each step ends just
-/// beyond the reach of a root, where comparisons with it are certain again.
+/// beyond the reach of a root, where no other root may be.
 ///
-/// A window that holds a single root is passed for certain: on both sides of it membership is known, and what is between can
-/// change only there. Where it holds several their order is not certain, and nothing is.
+/// Why that is certain. Where no root may be, each leaf's membership is that of the values, and so is the program's. From
+/// there to its least root's reach the program does not change: the magnitude of a sweep grows with the magnitudes it is made
+/// of, whatever their signs, and no other root's reach meets that of the one it lands on. A window that holds a single root
+/// is passed for certain, since membership is known on both sides of it, and what is between can change only there. Where it
+/// holds several their order is not certain, and nothing is. A span that may be empty counts as inhabited, with ends that
+/// reach to each other, so that a window that holds one holds both.
 #[inline(always)]
 pub fn certify<T: Real, L>(nodes: &[Node<L>], spans: &[Span<Bounded<T>>], start: T) -> Certificate<T> {
-    let zero = Bounded::exact(start.splat_like(0.0));
+    let (zero, one) = (start.splat_like(0.0), start.splat_like(1.0));
     let infinity = start.splat_like(f32::INFINITY);
-    let first = sweep(nodes, spans, Bounded::exact(start));
+    let first = sweep_values(nodes, spans, start);
     let inside = first.lt(zero);
     let mut certificate = Certificate {
-        t: first.abs(),
+        t: Bounded::exact(first.abs()),
         leaf: infinity,
-        at_enter: inside.yes,
-        inside: inside.yes,
-        sure: inside.sure,
+        at_enter: inside,
+        inside,
+        sure: is_clear(spans, start),
         sweeps: 1,
     };
-    let ahead = |t: Bounded<T>| !(t.value.eq(infinity) & t.error.eq(zero.value));
-    let mut running = certificate.sure & ahead(certificate.t);
+    let mut running = certificate.sure & certificate.t.value.lt(infinity);
     while running.any() {
-        let (low, high) = certificate.t.ends();
-        let within = roots_within(spans, low, high);
-        let next = sweep(nodes, spans, Bounded::exact(high.next_up()));
+        let t = certificate.t.value;
+        let window = window_at(spans, t);
+        // Rounding must not take its ends inward.
+        let ulps = t * t.splat_like(4.0 * T::ROUNDOFF);
+        let exact = window.reach.eq(zero);
+        let reach = T::select(exact, zero, window.reach * t.splat_like(SLACK) + ulps);
+        let count = ends_near(spans, t, T::select(exact, zero, reach + ulps));
+        let beyond = t + reach;
+        let next = sweep_values(nodes, spans, beyond);
         certificate.sweeps += 1;
-        let outside = next.lt(zero);
-        let known = high.lt(infinity) & within.count.eq(start.splat_like(1.0)) & outside.sure;
+        let known = beyond.lt(infinity) & count.eq(one);
         certificate.sure = certificate.sure & (known | !running);
         running = running & known;
-        let turned = running & outside.yes.differs_from(inside.yes);
-        certificate.leaf = T::select(turned, within.leaf, certificate.leaf);
-        certificate.at_enter = (turned & within.at_enter) | (!turned & certificate.at_enter);
+        let turned = running & next.lt(zero).differs_from(inside);
+        certificate.leaf = T::select(turned, window.leaf, certificate.leaf);
+        certificate.at_enter = (turned & window.at_enter) | (!turned & certificate.at_enter);
+        certificate.t.error = T::select(turned, window.reach, certificate.t.error);
         running = running & !turned;
-        certificate.t = Bounded {
-            value: T::select(running, next.value.abs(), certificate.t.value),
-            error: T::select(running, next.error, certificate.t.error),
-        };
-        running = running & ahead(certificate.t);
+        certificate.t.value = T::select(running, next.abs(), certificate.t.value);
+        running = running & certificate.t.value.lt(infinity);
     }
     certificate
 }

@@ -2,6 +2,7 @@
 
 use super::fold::{Operand, Reading, Signed, fold};
 use super::node::Node;
+use crate::bounded::Bounded;
 use crate::real::{Mask, Real};
 use crate::span::Span;
 use core::slice::Iter;
@@ -17,6 +18,29 @@ use core::slice::Iter;
 pub fn sweep<T: Real, L>(nodes: &[Node<L>], spans: &[Span<T>], t: T) -> T {
     let spans = spans.iter();
     fold(nodes, Signed(t), &mut Sweep { spans, t }).0
+}
+
+/// [`sweep`] over the values of spans that know their errors.
+#[inline(always)]
+pub(super) fn sweep_values<T: Real, L>(nodes: &[Node<L>], spans: &[Span<Bounded<T>>], t: T) -> T {
+    let spans = spans.iter();
+    fold(nodes, Signed(t), &mut SweepValues { spans, t }).0
+}
+
+struct SweepValues<'a, T> {
+    spans: Iter<'a, Span<Bounded<T>>>,
+    t: T,
+}
+
+impl<T: Real, L> Reading<L> for SweepValues<'_, T> {
+    type Operand = Signed<T>;
+    #[inline(always)]
+    fn leaf(&mut self, _: &L, _: u16) -> Signed<T> {
+        Signed(match self.spans.next() {
+            Some(span) => span.values().signed_crossing(self.t),
+            None => self.t.splat_like(f32::INFINITY),
+        })
+    }
 }
 
 struct Sweep<'a, T> {

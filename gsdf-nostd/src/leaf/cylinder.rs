@@ -2,7 +2,7 @@
 
 use super::solid::{Bounds, Ground, Solid, Surface, nowhere};
 use crate::invalid::{Invalid, length, point, unit};
-use crate::quadratic::roots;
+use crate::quadratic::{Chord, roots};
 use crate::range::{PARALLEL_TILT_SQUARED, max_norm};
 use crate::real::Real;
 use crate::span::Span;
@@ -131,16 +131,15 @@ impl<T: Real> SeenSide<T> {
         let a = v.norm_squared();
         let parallel = a.lt(toward.vv * axis.norm_squared() * a.splat_like(PARALLEL_TILT_SQUARED));
         let per_a = a.splat_like(1.0) / a;
-        let b = self.w.dot(v);
-        let d = if T::ROBUST {
-            let nearest = b * per_a;
-            let l = self.w - v.scaled(nearest.given());
-            let away = (a * (self.r2 - l.norm_squared())).off_by((a * nearest.doubt()).squared());
-            // On the side the roots are 0 and -2B/A.
-            T::select(self.c.eq(zero), b.squared(), away)
-        } else {
-            b.squared() - a * self.c
+        let chord = Chord {
+            w: self.w,
+            v,
+            a,
+            per_a,
+            c: self.c,
+            r2: self.r2,
         };
+        let (b, d) = chord.terms();
         // Far away it may cross the side all the same.
         let tilted = parallel & !a.eq(zero);
         let inside = self.c.unknown_where(tilted).lt(zero);

@@ -2,7 +2,7 @@
 
 use super::solid::{Bounds, Ground, Solid, Surface, nowhere};
 use crate::invalid::{Invalid, length, point};
-use crate::quadratic::roots;
+use crate::quadratic::{Chord, roots};
 use crate::real::Real;
 use crate::span::Span;
 use crate::toward::Toward;
@@ -103,19 +103,15 @@ impl Solid for Sphere {
     #[inline(always)]
     fn span<T: Real>(&self, seen: &Self::Seen<T>, toward: &Toward<T>) -> Span<T> {
         let zero = seen.c.splat_like(0.0);
-        let b = seen.w.dot(toward.v);
-        let d = if T::ROBUST {
-            let nearest = b * toward.per_vv;
-            let l = seen.w - toward.v.scaled(nearest.given());
-            let radius = seen.c.splat_like(self.radius);
-            let away = toward.vv * (radius.squared() - l.norm_squared());
-            // What `l` has along the ray counts twice: by its square.
-            let away = away.off_by((toward.vv * nearest.doubt()).squared());
-            // On the surface the roots are 0 and -2B/A.
-            T::select(seen.c.eq(zero), b.squared(), away)
-        } else {
-            b.squared() - toward.vv * seen.c
+        let chord = Chord {
+            w: seen.w,
+            v: toward.v,
+            a: toward.vv,
+            per_a: toward.per_vv,
+            c: seen.c,
+            r2: zero.splat_like(self.radius).squared(),
         };
+        let (b, d) = chord.terms();
         let met = zero.lt(d);
         if nowhere(met) {
             return Span::empty_like(zero);

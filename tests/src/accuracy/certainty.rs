@@ -113,7 +113,7 @@ fn certified<T: Lane>(trial: &Trial, leaf: &Leaf, like: T, to_f64: impl Fn(T) ->
         None => Ray::new(trial.origin, trial.direction).map(|ray| (ray, Unit::ONE)),
     };
     let (ray, parameter) = made.expect("corpora make valid rays");
-    let line = ray.line(Bounded::exact(like));
+    let line = ray.line(like).bounded();
     let span: Span<Bounded<T>> = match trial.solid.pose {
         Some(pose) => {
             let local = pose.line_to_local(&line);

@@ -1,0 +1,142 @@
+//! The operators: what each rounding may lose.
+
+use super::{Bounded, UNDERFLOW};
+use crate::real::{Mask, Real};
+use core::ops::{Add, Div, Mul, Neg, Sub};
+
+impl<T: Real> Add for Bounded<T> {
+    type Output = Self;
+
+    #[inline(always)]
+    fn add(self, other: Self) -> Self {
+        let (a, b) = (self.value, other.value);
+        let value = a + b;
+        let (a_part, b_part) = (value - b, value - (value - b));
+        let lost = ((a - a_part) + (b - b_part)).abs();
+        let error = (self.error + other.error) + lost;
+        if Self::is_finite(value).all() {
+            Self { value, error }
+        } else {
+            endless_sum(self, other, value, error)
+        }
+    }
+}
+
+impl<T: Real> Sub for Bounded<T> {
+    type Output = Self;
+
+    #[inline(always)]
+    fn sub(self, other: Self) -> Self {
+        self + -other
+    }
+}
+
+impl<T: Real> Mul for Bounded<T> {
+    type Output = Self;
+
+    #[inline(always)]
+    fn mul(self, other: Self) -> Self {
+        let value = self.value * other.value;
+        if Self::are_ordinary(value) {
+            let inherited = self.value.abs() * other.error + (other.value.abs() + other.error) * self.error;
+            Self {
+                value,
+                error: inherited + Self::half_ulp(value),
+            }
+        } else {
+            odd_product(self, other, value)
+        }
+    }
+}
+
+impl<T: Real> Div for Bounded<T> {
+    type Output = Self;
+
+    #[inline(always)]
+    fn div(self, other: Self) -> Self {
+        let value = self.value / other.value;
+        let least = other.value.abs() - other.reach();
+        if Self::are_ordinary(value) && least.splat_like(0.0).lt(least).all() {
+            let inherited = (self.error + value.abs() * other.error) / least;
+            Self {
+                value,
+                error: inherited + Self::half_ulp(value),
+            }
+        } else {
+            odd_quotient(self, other, value)
+        }
+    }
+}
+
+// What is rare, apart: in all of a formula's operations it would be most of its code.
+
+#[cold]
+#[inline(never)]
+fn endless_sum<T: Real>(a: Bounded<T>, b: Bounded<T>, value: T, error: T) -> Bounded<T> {
+    let zero = value.splat_like(0.0);
+    let endless = !(Bounded::is_finite(a.value) & Bounded::is_finite(b.value));
+    let sum = Bounded::rounded(value, a.error + b.error, zero, endless);
+    Bounded {
+        value,
+        error: T::select(Bounded::is_finite(value), error, sum.error),
+    }
+}
+
+#[inline(never)]
+fn odd_product<T: Real>(a: Bounded<T>, b: Bounded<T>, value: T) -> Bounded<T> {
+    let zero = value.splat_like(0.0);
+    let nothing = a.is_nothing() | b.is_nothing();
+    if nothing.all() && Bounded::is_finite(value).all() {
+        return Bounded::exact(value);
+    }
+    let inherited = a.value.abs() * b.error + (b.value.abs() + b.error) * a.error;
+    let exact = a.is_exact() & b.is_exact();
+    let rounding = Bounded::half_ulp(value) + zero.splat_like(UNDERFLOW);
+    Bounded::rounded(
+        value,
+        T::select(exact | nothing, zero, inherited),
+        T::select(nothing, zero, rounding),
+        !(Bounded::is_finite(a.value) & Bounded::is_finite(b.value)),
+    )
+}
+
+#[cold]
+#[inline(never)]
+fn odd_quotient<T: Real>(a: Bounded<T>, b: Bounded<T>, value: T) -> Bounded<T> {
+    let zero = value.splat_like(0.0);
+    let least = b.value.abs() - b.reach();
+    let inherited = (a.error + value.abs() * b.error) / least;
+    let inherited = T::select(zero.lt(least), inherited, zero.splat_like(f32::INFINITY));
+    let exact = a.is_exact() & b.is_exact();
+    let rounding = Bounded::half_ulp(value) + zero.splat_like(UNDERFLOW);
+    Bounded::rounded(
+        value,
+        T::select(exact, zero, inherited),
+        T::select(a.is_nothing(), zero, rounding),
+        !Bounded::is_finite(a.value) | b.is_nothing(),
+    )
+}
+
+#[cold]
+#[inline(never)]
+pub(super) fn odd_root<T: Real>(square: Bounded<T>) -> Bounded<T> {
+    let zero = square.value.splat_like(0.0);
+    let negative = square.value.lt(zero);
+    let most = (square.value + square.reach()).max(zero).sqrt();
+    let value = T::select(negative & zero.lt(most), zero, square.value.sqrt());
+    let inherited = T::select(square.reach().lt(square.value), square.error / value, value + most);
+    let inherited = T::select(square.is_exact(), zero, inherited);
+    Bounded::rounded(value, inherited, Bounded::half_ulp(value), !Bounded::is_finite(square.value))
+}
+
+impl<T: Real> Neg for Bounded<T> {
+    type Output = Self;
+
+    #[inline(always)]
+    fn neg(self) -> Self {
+        Self {
+            value: -self.value,
+            error: self.error,
+        }
+    }
+}

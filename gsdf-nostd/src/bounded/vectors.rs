@@ -1,0 +1,109 @@
+//! Whole formulas whose bounds are simpler than those of their operations one by one.
+
+use super::{Bounded, UNDERFLOW};
+use crate::quadratic::Chord;
+use crate::real::Real;
+use crate::vec3::V3;
+
+/// The scalar product. Each of its products is off by what its factors are, and rounded three times at the most.
+#[inline(always)]
+pub(super) fn dot<T: Real>(a: V3<Bounded<T>>, b: V3<Bounded<T>>) -> Bounded<T> {
+    let (x, y, z) = (Product::of(a.x, b.x), Product::of(a.y, b.y), Product::of(a.z, b.z));
+    let rounding = (x.size + y.size + z.size) * x.size.splat_like(3.0 * T::ROUNDOFF);
+    let inherited = x.inherited + y.inherited + z.inherited;
+    Bounded {
+        value: (x.value + y.value) + z.value,
+        error: (inherited + rounding) + underflow(x.factor + y.factor + z.factor),
+    }
+}
+
+/// The vector product. Each of its products is rounded twice.
+#[inline(always)]
+pub(super) fn cross<T: Real>(a: V3<Bounded<T>>, b: V3<Bounded<T>>) -> V3<Bounded<T>> {
+    V3::new(
+        difference(a.y, b.z, a.z, b.y),
+        difference(a.z, b.x, a.x, b.z),
+        difference(a.x, b.y, a.y, b.x),
+    )
+}
+
+#[inline(always)]
+fn difference<T: Real>(a: Bounded<T>, b: Bounded<T>, c: Bounded<T>, d: Bounded<T>) -> Bounded<T> {
+    let (first, second) = (Product::of(a, b), Product::of(c, d));
+    let rounding = (first.size + second.size) * first.size.splat_like(2.0 * T::ROUNDOFF);
+    Bounded {
+        value: first.value - second.value,
+        error: (first.inherited + second.inherited + rounding) + underflow(first.factor + second.factor),
+    }
+}
+
+/// A product and what bounds its error.
+struct Product<T> {
+    value: T,
+    size: T,
+    /// What the factors' errors make of it.
+    inherited: T,
+    /// The lesser factor, zero if the product is nothing for certain.
+    factor: T,
+}
+
+impl<T: Real> Product<T> {
+    #[inline(always)]
+    fn of(a: Bounded<T>, b: Bounded<T>) -> Self {
+        let value = a.value * b.value;
+        let (a_size, b_most) = (a.value.abs(), b.value.abs() + b.error);
+        Self {
+            value,
+            size: value.abs(),
+            inherited: a_size * b.error + b_most * a.error,
+            factor: (a_size + a.error).min(b_most),
+        }
+    }
+}
+
+/// What products that are not nothing may lose where they underflow.
+#[inline(always)]
+fn underflow<T: Real>(factors: T) -> T {
+    let zero = factors.splat_like(0.0);
+    T::select(factors.eq(zero), zero, zero.splat_like(UNDERFLOW))
+}
+
+/// The discriminant of a chord.
+///
+/// With the exact `W`, `V`, `B`, `A` and what is off about each, the computed `l = W - (B/A) V` is off by some `δ`, component by
+/// component, from the errors of `W` and `V` and its own roundings, and by some `ν V` from that of `B/A`. Since the exact `l` is
+/// perpendicular to `V`, `l.l` is off by at most `2 |l|.δ + 3 (|δ| + |ν V|)²`, of which `(|δ| + |ν V|)² <= 2 (δ² + ν² A)`.
+#[inline(always)]
+pub(super) fn discriminant<T: Real>(chord: &Chord<Bounded<T>>, b: Bounded<T>) -> Bounded<T> {
+    let zero = b.value.splat_like(0.0);
+    let roundoff = |times: f32| zero.splat_like(times * T::ROUNDOFF);
+    let Chord { w, v, a, per_a, c, r2 } = chord;
+    let nearest = b.value * per_a.value;
+    let off_nearest =
+        (b.error + nearest.abs() * a.error) * per_a.value + nearest.abs() * per_a.error * a.value + nearest.abs() * roundoff(2.0);
+    let step = |w: Bounded<T>, v: Bounded<T>| {
+        let along = v.value * nearest;
+        let l = w.value - along;
+        let off = w.error + nearest.abs() * v.error + (along.abs() + l.abs()) * roundoff(1.0);
+        (l, off)
+    };
+    let ((x, off_x), (y, off_y), (z, off_z)) = (step(w.x, v.x), step(w.y, v.y), step(w.z, v.z));
+    let l = V3::new(x, y, z);
+    let off = V3::new(off_x, off_y, off_z);
+    let square = l.norm_squared();
+    let first = (x.abs() * off_x + y.abs() * off_y) + z.abs() * off_z;
+    let second = off.norm_squared() + off_nearest.squared() * a.value;
+    let off_square = (first + first) + second * zero.splat_like(6.0) + square * roundoff(3.0);
+    let rest = r2.value - square;
+    let away = a.value * rest;
+    let off_away =
+        (a.value + a.error) * (off_square + r2.error + rest.abs() * roundoff(1.0)) + rest.abs() * a.error + away.abs() * roundoff(1.0);
+    // On the surface `C` is zero.
+    let on = c.value.eq(zero);
+    let level = b.value.squared();
+    let off_level = (b.value.abs() + b.value.abs() + b.error) * b.error + (a.value + a.error) * c.error + level * roundoff(1.0);
+    Bounded {
+        value: T::select(on, level, away),
+        error: T::select(on, off_level, off_away) + zero.splat_like(UNDERFLOW),
+    }
+}
