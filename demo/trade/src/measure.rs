@@ -110,22 +110,28 @@ fn race(
     let mut measured = Vec::new();
     for contender in contenders {
         let mut contender = contender.ready(subject)?;
-        let rays = match limit {
-            Some(limit) => affordable(&mut contender, subject.rays().len(), limit)?,
-            None => subject.rays().len(),
+        let turn = match limit {
+            Some(limit) => Turn::of(&mut contender, subject.rays().len(), limit)?,
+            None => Turn {
+                rays: subject.rays().len(),
+                times: 1,
+            },
         };
         // Once without a clock: what it says does not depend on the round.
-        contender.cast(rays)?;
-        measured.push(judged(subject, &contender, rays, &truth));
-        ready.push((contender, rays));
+        contender.cast(turn.rays)?;
+        measured.push(judged(subject, &contender, turn.rays, &truth));
+        ready.push((contender, turn));
     }
     let mut times = vec![Vec::with_capacity(rounds); contenders.len()];
     for _ in 0..rounds {
-        for ((contender, rays), times) in ready.iter_mut().zip(&mut times) {
+        for ((contender, turn), times) in ready.iter_mut().zip(&mut times) {
             let begin = Instant::now();
-            contender.cast(*rays)?;
-            black_box(&contender);
-            times.push(begin.elapsed().as_secs_f64() * 1e9 / *rays as f64);
+            for _ in 0..turn.times {
+                contender.cast(turn.rays)?;
+                black_box(&contender);
+            }
+            let count = turn.rays * turn.times;
+            times.push(begin.elapsed().as_secs_f64() * 1e9 / count as f64);
         }
         progress();
     }
@@ -159,21 +165,39 @@ fn truth(subject: &Subject<'_>, limit: Option<Duration>) -> Result<Vec<Option<(f
     Ok(met)
 }
 
-/// How many rays of all a contender casts within a limit, but for the fewest that it casts at all.
-fn affordable(contender: &mut Ready<'_, '_>, all: usize, limit: Duration) -> Result<usize> {
-    let fewest = contender.fewest();
-    let mut rays = fewest;
-    while rays < all {
-        let begin = Instant::now();
-        contender.cast(rays)?;
-        let took = begin.elapsed();
-        if 4 * took >= limit {
-            let affordable = (rays as f64 * limit.as_secs_f64() / took.as_secs_f64()) as usize;
-            return Ok((affordable - affordable % fewest).clamp(fewest, all));
+/// What a contender does in a round.
+struct Turn {
+    /// How many rays it casts.
+    rays: usize,
+    /// How often it casts them.
+    times: usize,
+}
+
+impl Turn {
+    /// As many rays of all as a contender casts within a limit, but no fewer than it casts at all; and, where these are soon
+    /// cast, that so often that a clock can tell.
+    fn of(contender: &mut Ready<'_, '_>, all: usize, limit: Duration) -> Result<Self> {
+        let fewest = contender.fewest();
+        let mut rays = fewest;
+        loop {
+            let begin = Instant::now();
+            contender.cast(rays)?;
+            let took = begin.elapsed().max(Duration::from_nanos(1));
+            let share = limit.as_secs_f64() / took.as_secs_f64();
+            if rays == all {
+                let times = (share / 8.0).ceil().clamp(1.0, 1000.0) as usize;
+                return Ok(Self { rays, times });
+            }
+            if share <= 4.0 {
+                let affordable = (rays as f64 * share) as usize;
+                return Ok(Self {
+                    rays: (affordable - affordable % fewest).clamp(fewest, all),
+                    times: 1,
+                });
+            }
+            rays = (4 * rays).min(all);
         }
-        rays *= 4;
     }
-    Ok(all)
 }
 
 fn judged(subject: &Subject<'_>, ready: &Ready<'_, '_>, rays: usize, truth: &[Option<(f64, u32)>]) -> Measured {
