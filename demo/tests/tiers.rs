@@ -7,6 +7,7 @@ use gsdf_demo::commands::tier::{Alone, Distance, Tier};
 use gsdf_demo::model::Model;
 use gsdf_demo::model::evaluate::Reading;
 use gsdf_nostd::{Bounded, CertifiedScratch, Lane, Plain, Program, Ray, Settled, Span};
+use gsdf_trade::{Primitive, Solids};
 use image::GenericImageView;
 use program::{MODEL, directory, done, rays, refused, written};
 use serde_json::{Value, json};
@@ -32,7 +33,7 @@ fn model() -> Model {
 }
 
 /// What a plain cast in some arithmetic finds, as a line: the distance in that arithmetic.
-fn expected<T: Lane>(program: Program<'_>, ray: Ray, like: T, distance: fn(T) -> String) -> Result<String> {
+fn expected<T: Lane>(program: Program<'_, Primitive>, ray: Ray, like: T, distance: fn(T) -> String) -> Result<String> {
     let mut spans = vec![Span::empty_like(like); program.leaves()];
     let Some(hit) = program.along(ray, &mut spans)?.cast() else {
         return Ok("miss".to_owned());
@@ -56,7 +57,8 @@ fn read_back(line: &str) -> Vec<String> {
 #[test]
 fn every_tier_tells_what_the_library_finds_in_it() -> Result<()> {
     let (model, rays) = (model(), rays(2000));
-    let program = model.program()?;
+    let solids = Solids::of(&model.program()?)?;
+    let program = solids.program()?;
     for tier in ["fast", "robust", "f64"] {
         let (lines, _) = answers(tier, &rays, &[])?;
         assert_eq!(lines.len(), rays.len());
@@ -102,8 +104,8 @@ fn certified_answers_have_their_bounds_and_how_they_were_settled() -> Result<()>
     // Along the rim of the hole, and along a face.
     rays.extend([[1.0, 0.0, 9.0, 0.0, 0.0, -1.0], [-9.0, 0.0, 2.0, 1.0, 0.0, 0.0]]);
     let (lines, json) = answers("certified", &rays, &[])?;
-    let model = model();
-    let program = model.program()?;
+    let solids = Solids::of(&model().program()?)?;
+    let program = solids.program()?;
     let mut single = vec![Span::empty_like(Bounded::exact(0.0)); program.leaves()];
     let mut double = vec![Span::empty_like(Bounded::exact(0.0)); program.leaves()];
     let mut tie = vec![Span::empty_like(0.0); program.leaves()];
@@ -148,7 +150,8 @@ fn all_crossings_are_told_in_a_tier() -> Result<()> {
     let (_, exact) = answers("f64", &rays, &["--all"])?;
     let (lines, _) = answers("f64", &rays, &["--all"])?;
     let model = model();
-    let mut alone = Alone::new(model.program()?, Tier::F64);
+    let solids = Solids::of(&model.program()?)?;
+    let mut alone = Alone::new(solids.program()?, Tier::F64);
     let mut lines = lines.iter();
     for (answer, [a, b, c, d, e, f]) in exact.iter().zip(&rays) {
         let ray = Ray::new([*a, *b, *c].into(), [*d, *e, *f].into())?;

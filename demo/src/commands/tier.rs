@@ -1,7 +1,8 @@
 //! The tiers: how much arithmetic a ray is worth, one ray at a time.
 
 use clap::ValueEnum;
-use gsdf_nostd::{Anywhere, Bounded, CertifiedScratch, Hit, Lane, Plain, Program, Ray, Settled, Span, march};
+use gsdf_nostd::{Anywhere, Bounded, CertifiedScratch, Hit, Lane, Plain, Program, Ray, Real, Settled, Span, march};
+use gsdf_trade::Primitive;
 use serde::Serialize;
 
 /// In what arithmetic rays are cast. The formulas are the same; rays and models are single precision numbers in all of them.
@@ -93,7 +94,7 @@ impl Number for f64 {
 
 /// Casts rays by themselves, each past every leaf.
 pub struct Alone<'m> {
-    program: Program<'m>,
+    program: Program<'m, Primitive>,
     spans: Spans,
 }
 
@@ -109,14 +110,14 @@ enum Spans {
     },
 }
 
-fn empty<T: gsdf_nostd::Real>(program: Program<'_>, like: T) -> Vec<Span<T>> {
+fn empty<T: Real>(program: Program<'_, Primitive>, like: T) -> Vec<Span<T>> {
     vec![Span::empty_like(like); program.leaves()]
 }
 
 impl<'m> Alone<'m> {
     /// In a tier.
     #[must_use]
-    pub fn new(program: Program<'m>, tier: Tier) -> Self {
+    pub fn new(program: Program<'m, Primitive>, tier: Tier) -> Self {
         let spans = match tier {
             Tier::Fast => Spans::Fast(empty(program, Plain(0.0))),
             Tier::Robust => Spans::Robust(empty(program, 0.0)),
@@ -178,7 +179,11 @@ impl<'m> Alone<'m> {
 }
 
 /// The crossings of a ray, in order.
-fn crossings<'s, T: Number>(program: &'s Program<'_>, ray: &'s Ray, spans: &'s mut [Span<T>]) -> impl Iterator<Item = Crossing> + 's {
+fn crossings<'s, T: Number>(
+    program: &'s Program<'_, Primitive>,
+    ray: &'s Ray,
+    spans: &'s mut [Span<T>],
+) -> impl Iterator<Item = Crossing> + 's {
     let like = T::from(0.0);
     let line = ray.line(like);
     program.spans_along(&line, Anywhere, spans);
@@ -194,7 +199,7 @@ fn crossings<'s, T: Number>(program: &'s Program<'_>, ray: &'s Ray, spans: &'s m
     })
 }
 
-fn sweeps<T: Number>(program: &Program<'_>, ray: &Ray, spans: &mut [Span<T>]) -> u32 {
+fn sweeps<T: Number>(program: &Program<'_, Primitive>, ray: &Ray, spans: &mut [Span<T>]) -> u32 {
     // There is a span for every leaf.
     program.along(*ray, spans).map_or(0, |sight| sight.march::<T>().sweeps)
 }

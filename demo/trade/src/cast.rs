@@ -1,7 +1,8 @@
 //! Contenders at work.
 
 use crate::contender::{Contender, Method, Way};
-use crate::subject::{Primitive, Subject};
+use crate::solids::Primitive;
+use crate::subject::Subject;
 use anyhow::Result;
 use gsdf_nostd::{Bounded, CertifiedScratch, Hit, Lane, Leaf, Plain, Program, ProgramError, Ray, Span, SphereTracer};
 use gsdf_simd::{Double, Fast, Lanes, MOST_LANES, Packet, Pixel, Renderer, Robust, TILE_SIDE, Target, Tier, Tile, Wants, Work};

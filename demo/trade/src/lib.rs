@@ -2,7 +2,7 @@
 //!
 //! A package of its own, because packets in every tier at every level are much to compile.
 //!
-//! - [`Subject`]: a program and the rays through the pixels of a picture of it. [`reference()`]: those that are always at hand.
+//! - [`Solids`]: what programs are made of here. [`Subject`]: a program and the rays through the pixels of a picture of it. [`reference()`]: those that are always at hand.
 //! - [`Contender`]: who casts the rays. [`Ready`]: one at work.
 //! - [`measure()`]: times and errors, by turns. [`svg`]: the chart of them.
 
@@ -11,6 +11,7 @@ mod contender;
 mod measure;
 mod plot;
 mod reference;
+mod solids;
 mod statistics;
 mod subject;
 
@@ -19,5 +20,6 @@ pub use contender::{Contender, Method, Way};
 pub use measure::{Measured, measure};
 pub use plot::svg;
 pub use reference::{NAMES, reference};
+pub use solids::{Primitive, Solids};
 pub use statistics::Estimate;
-pub use subject::{Primitive, Subject};
+pub use subject::Subject;

@@ -1,28 +1,16 @@
 //! What contenders are measured on: a program, and the rays through the pixels of a picture of it.
 
-use anyhow::{Result, bail};
-use gsdf_nostd::{CappedCone, CappedCylinder, Cone, Cuboid, HalfSpace, Leaf, Node, Program, Raster, Ray, Sphere, Transform, leaf_set};
+use crate::solids::{Primitive, Solids};
+use anyhow::Result;
+use gsdf_nostd::{Leaf, Program, Raster, Ray};
 use gsdf_simd::{MOST_LANES, Scene};
-
-leaf_set! {
-    /// The solids that models and reference scenes are made of: all contenders link their formulas and no others.
-    pub enum Primitive {
-        HalfSpace(HalfSpace),
-        Sphere(Sphere),
-        Cuboid(Cuboid),
-        CappedCylinder(CappedCylinder),
-        Cone(Cone),
-        CappedCone(CappedCone),
-    }
-}
 
 /// A program and the rays it is asked about.
 #[derive(Debug)]
 pub struct Subject<'a> {
     name: String,
     prepared: Scene<'a, Leaf>,
-    nodes: Vec<Node<Primitive>>,
-    poses: Vec<Transform>,
+    solids: Solids,
     far: f32,
     raster: Raster,
     pixels: Vec<u32>,
@@ -33,14 +21,12 @@ impl<'a> Subject<'a> {
     /// A program by a name, as a raster sees it, with nothing to be seen beyond the distance `far`.
     ///
     /// # Errors
-    /// Where a leaf is none that OpenSCAD's solids become, or the raster's camera sees along no ray.
+    /// As [`Solids::of`], or where the raster's camera sees along no ray.
     pub fn new(name: &str, program: Program<'a>, raster: Raster, far: f32) -> Result<Self> {
-        let nodes = program.nodes().iter().map(primitive).collect::<Result<_>>()?;
         let mut subject = Self {
             name: name.to_owned(),
+            solids: Solids::of(&program)?,
             prepared: Scene::new(program),
-            nodes,
-            poses: (1..=u16::MAX).map_while(|frame| program.pose(frame).copied()).collect(),
             far,
             raster,
             pixels: Vec::new(),
@@ -78,9 +64,9 @@ impl<'a> Subject<'a> {
     /// The program.
     ///
     /// # Errors
-    /// Where it is none, which one that came as a program is not.
+    /// As [`Solids::program`].
     pub fn program(&self) -> Result<Program<'_, Primitive>> {
-        Ok(Program::new(&self.nodes)?.posed(&self.poses)?)
+        self.solids.program()
     }
 
     /// Beyond what distance nothing is to be seen, in units of the rays' parameters.
@@ -126,27 +112,6 @@ fn coprime(mut a: u32, mut b: u32) -> bool {
         (a, b) = (b, a % b);
     }
     a == 1
-}
-
-fn primitive(node: &Node) -> Result<Node<Primitive>> {
-    Ok(match node {
-        Node::Leaf { solid, frame } => Node::Leaf {
-            solid: match solid {
-                Leaf::HalfSpace(solid) => Primitive::HalfSpace(*solid),
-                Leaf::Sphere(solid) => Primitive::Sphere(*solid),
-                Leaf::Cuboid(solid) => Primitive::Cuboid(*solid),
-                Leaf::CappedCylinder(solid) => Primitive::CappedCylinder(*solid),
-                Leaf::Cone(solid) => Primitive::Cone(*solid),
-                Leaf::CappedCone(solid) => Primitive::CappedCone(*solid),
-                other => bail!("no model is made of {other:?}"),
-            },
-            frame: *frame,
-        },
-        Node::Union => Node::Union,
-        Node::Intersection => Node::Intersection,
-        Node::Difference => Node::Difference,
-        Node::Complement => Node::Complement,
-    })
 }
 
 #[cfg(test)]

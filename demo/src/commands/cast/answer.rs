@@ -6,6 +6,7 @@ use crate::commands::tier::{Alone, Certainty, Distance, Tier};
 use glam::Vec3;
 use gsdf_nostd::{Leaf, Program, Ray, Span};
 use gsdf_simd::{Caster, Level, Pixel, RayHits, Rays, Scene};
+use gsdf_trade::Primitive;
 use serde::Serialize;
 
 /// How rays are answered.
@@ -20,6 +21,8 @@ pub struct Form {
 /// Answers the rays of a model.
 pub struct Answers<'m> {
     program: Program<'m>,
+    /// The same, for rays that are cast one by one.
+    solids: Program<'m, Primitive>,
     /// Casts rays in the tier that is prepared for it.
     caster: Caster<'m, 'm, Leaf>,
     tier: Tier,
@@ -71,11 +74,12 @@ struct All<'c> {
 }
 
 impl<'m> Answers<'m> {
-    /// For the rays of a program, in a tier.
+    /// For the rays of a scene, in a tier; `solids` are its program.
     #[must_use]
-    pub fn new(program: Program<'m>, scene: &'m Scene<'m, Leaf>, level: Level, tier: Tier, form: Form) -> Self {
+    pub fn new(solids: Program<'m, Primitive>, scene: &'m Scene<'m, Leaf>, level: Level, tier: Tier, form: Form) -> Self {
         Self {
-            program,
+            program: *scene.program(),
+            solids,
             caster: Caster::at_level(scene, level),
             tier,
             form,
@@ -87,7 +91,7 @@ impl<'m> Answers<'m> {
     pub fn of(&self, piece: &Piece) -> Vec<u8> {
         let mut text = Text::default();
         if self.form.all {
-            let mut alone = Alone::new(self.program, self.tier);
+            let mut alone = Alone::new(self.solids, self.tier);
             for (ray, number) in piece.rays.iter().zip(piece.first..) {
                 let crossings: Vec<Crossing> = alone.all(ray).into_iter().map(Crossing::from).collect();
                 if self.form.json {
@@ -122,7 +126,7 @@ impl<'m> Answers<'m> {
 
     /// The first crossing of each ray, and how certain it is.
     fn one_by_one(&self, rays: &[Ray]) -> Vec<(Option<Crossing>, Option<Certainty>)> {
-        let mut alone = Alone::new(self.program, self.tier);
+        let mut alone = Alone::new(self.solids, self.tier);
         let first = |ray| {
             let (crossing, certainty) = alone.first(ray);
             (crossing.map(Crossing::from), certainty)

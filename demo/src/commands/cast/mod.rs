@@ -10,6 +10,7 @@ use answer::{Answers, Form};
 use anyhow::{Context, Result, bail};
 use clap::Args;
 use gsdf_simd::Scene;
+use gsdf_trade::Solids;
 use lines::{Block, Piece};
 use rayon::ThreadPoolBuilder;
 use rayon::prelude::*;
@@ -86,12 +87,13 @@ impl Cast {
             .num_threads(settings.threads.unwrap_or_default())
             .build()
             .context("cannot start the threads")?;
+        let solids = Solids::of(&program)?;
         let scene = Scene::new(program);
         let form = Form {
             all: self.all,
             json: self.json,
         };
-        let answers = Answers::new(program, &scene, settings.level, self.tier, form);
+        let answers = Answers::new(solids.program()?, &scene, settings.level, self.tier, form);
         let (mut block, mut line, mut ray) = (Block::default(), 1, 0);
         while block.fill(&mut input).with_context(|| format!("cannot read {source}"))? {
             let lines = match block.lines() {

@@ -5,6 +5,7 @@ use crate::frame::{Frame, Met};
 use core::fmt;
 use core::iter::Sum;
 use gsdf_nostd::{Hit, Program, Raster, Settled};
+use gsdf_trade::Primitive;
 use rayon::prelude::*;
 use serde::Serialize;
 
@@ -66,7 +67,7 @@ impl From<Hit> for Met {
 /// settled. Every finished row is told.
 pub fn cast(
     frame: &mut Frame,
-    program: Program<'_>,
+    program: Program<'_, Primitive>,
     raster: Raster,
     tier: Tier,
     row_done: impl Fn(u64) + Sync,

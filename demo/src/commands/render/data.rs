@@ -5,6 +5,7 @@ use crate::commands::tier::{Alone, Tier};
 use crate::frame::{Frame, Met};
 use anyhow::{Result, bail};
 use gsdf_nostd::{Program, Raster};
+use gsdf_trade::Primitive;
 use image::{ImageBuffer, Luma, Pixel, Rgb};
 use rayon::prelude::*;
 
@@ -53,7 +54,7 @@ pub fn id(frame: &Frame, size: Size, leaves: usize) -> Result<Picture<Luma<u16>>
 
 /// The sweeps that every ray takes in a tier, and what to do with each finished row.
 #[must_use]
-pub fn sweeps(program: Program<'_>, raster: Raster, tier: Tier, row_done: impl Fn(u64) + Sync) -> Picture<Luma<u16>> {
+pub fn sweeps(program: Program<'_, Primitive>, raster: Raster, tier: Tier, row_done: impl Fn(u64) + Sync) -> Picture<Luma<u16>> {
     let mut image = Picture::new(raster.width(), raster.height());
     image
         .par_chunks_mut(raster.width().max(1) as usize)

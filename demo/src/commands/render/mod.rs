@@ -16,6 +16,7 @@ use alone::Settlements;
 use anyhow::{Context, Result, bail};
 use clap::{Args, ValueEnum};
 use gsdf_simd::{Level, Renderer, Scene};
+use gsdf_trade::Solids;
 use image::codecs::png::CompressionType;
 use image::imageops::flip_horizontal_in_place;
 use indicatif::ProgressBar;
@@ -149,6 +150,8 @@ impl Render {
     fn picture(&self, model: &Model, size: Size, level: Level) -> Result<(Vec<u8>, Summary)> {
         let program = model.solid()?;
         let raster = self.view.raster(model.reach(), size)?;
+        let solids = Solids::of(&program)?;
+        let solids = solids.program()?;
         let scene = Scene::new(program);
         let mut frame = Frame::new(size.width, size.height);
         // Every row is cast, and then lit.
@@ -160,14 +163,14 @@ impl Render {
                 bar.inc(u64::from(size.height));
                 (hits, None)
             }
-            tier => alone::cast(&mut frame, program, raster, tier, |rows| bar.inc(rows)),
+            tier => alone::cast(&mut frame, solids, raster, tier, |rows| bar.inc(rows)),
         };
         let cast_ms = 1e3 * begin.elapsed().as_secs_f64();
         let depths = data::depths(&frame, size.height);
         let mut smoothed = 0;
         let png = match self.aov {
             Aov::Color => {
-                let painter = Painter::new(model, &scene, raster, level, self.tier, self.samples);
+                let painter = Painter::new(model, &scene, solids, raster, level, self.tier, self.samples);
                 let (image, count) = painter.paint(&frame, &bar);
                 smoothed = count;
                 seen(image)
@@ -175,7 +178,7 @@ impl Render {
             Aov::Depth => seen(data::depth(&frame, size, depths)),
             Aov::Normal => seen(data::normal(&frame, size)),
             Aov::Id => seen(data::id(&frame, size, model.leaves().len())?),
-            Aov::Sweeps => seen(data::sweeps(program, raster, self.tier, |rows| bar.inc(rows))),
+            Aov::Sweeps => seen(data::sweeps(solids, raster, self.tier, |rows| bar.inc(rows))),
         }?;
         finish(&bar);
         let summary = Summary {

@@ -11,6 +11,7 @@ use core::str::FromStr;
 use glam::{Vec3, vec3};
 use gsdf_nostd::{Program, Raster, Ray};
 use gsdf_simd::{Caster, Level, Pixel, RayHits, Rays, Scene};
+use gsdf_trade::Primitive;
 use image::RgbImage;
 use indicatif::ProgressBar;
 use rayon::prelude::*;
@@ -42,7 +43,7 @@ const ROWS: u32 = 64;
 /// Paints pictures of a model.
 pub struct Painter<'m> {
     colours: Vec<Vec3>,
-    program: Program<'m>,
+    solids: Program<'m, Primitive>,
     caster: Caster<'m, 'm, gsdf_nostd::Leaf>,
     tier: Tier,
     raster: Raster,
@@ -59,15 +60,23 @@ struct Sight {
 }
 
 impl<'m> Painter<'m> {
-    /// For pictures of a model, as this raster sees it, with its rays cast in a tier.
+    /// For pictures of a model, as this raster sees it, with its rays cast in a tier; `solids` are the program of its scene.
     #[must_use]
-    pub fn new(model: &Model, scene: &'m Scene<'m, gsdf_nostd::Leaf>, raster: Raster, level: Level, tier: Tier, samples: Samples) -> Self {
+    pub fn new(
+        model: &Model,
+        scene: &'m Scene<'m, gsdf_nostd::Leaf>,
+        solids: Program<'m, Primitive>,
+        raster: Raster,
+        level: Level,
+        tier: Tier,
+        samples: Samples,
+    ) -> Self {
         let camera = raster.camera();
         // The camera's own right is on the left in a picture of right-handed axes.
         let toward = -TO_LAMP.x * camera.right() + TO_LAMP.y * camera.up() - TO_LAMP.z * camera.forward();
         Self {
             colours: model.leaves().iter().map(|leaf| leaf.colour.unwrap_or(UNPAINTED)).collect(),
-            program: *scene.program(),
+            solids,
             caster: Caster::at_level(scene, level),
             tier,
             raster,
@@ -144,7 +153,7 @@ impl<'m> Painter<'m> {
     fn meet(&self, sights: &mut [Option<Sight>]) {
         if self.tier != Tier::Robust {
             sights.par_iter_mut().flatten().for_each_init(
-                || Alone::new(self.program, self.tier),
+                || Alone::new(self.solids, self.tier),
                 |alone, sight| sight.met = alone.first(&sight.ray).0.map(|crossing| crossing.hit.into()),
             );
             return;
