@@ -65,30 +65,34 @@ pub fn measure(
 }
 
 impl Subject<'_> {
-    /// Halves the picture until tiles of it are rendered within a limit on one thread, or hardly a tile is left.
+    /// Takes a picture of half the sides, or a quarter and so on, where tiles of a larger one take too long on one thread: more
+    /// than twenty times the limit, since nobody else casts rays as fast.
     ///
     /// # Errors
     /// As [`look`](Self::look).
     pub fn fit(&mut self, level: Level, limit: Duration) -> Result<()> {
-        /// The side of a picture that is always rendered.
+        /// The side of a picture that is taken whatever it takes.
         const LEAST: u32 = 16;
         let raster = self.raster();
-        let mut halvings = raster.width().max(raster.height()).div_ceil(LEAST).ilog2();
-        loop {
+        let halved = |halvings: u32| {
             let side = |side: u32| (side >> halvings).max(1);
-            self.look(raster.camera().raster(side(raster.width()), side(raster.height())))?;
+            raster.camera().raster(side(raster.width()), side(raster.height()))
+        };
+        // From small to large: what each takes is known when it is over.
+        let most = raster.width().max(raster.height()).div_ceil(LEAST).ilog2();
+        for halvings in (0..=most).rev() {
+            self.look(halved(halvings))?;
             let took = alone(|| {
                 let mut tiles = Contender::tiles(level).ready(self)?;
                 let begin = Instant::now();
                 tiles.cast(self.rays().len())?;
                 Ok(begin.elapsed())
             })?;
-            // Twice the sides are four times the pixels.
-            if halvings == 0 || 4 * took > limit {
-                return Ok(());
+            if took > 20 * limit {
+                return self.look(halved((halvings + 1).min(most)));
             }
-            halvings -= 1;
         }
+        Ok(())
     }
 }
 
