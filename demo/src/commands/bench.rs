@@ -49,7 +49,7 @@ pub struct Report {
     pub height: u32,
     /// How often each contender was timed.
     pub rounds: u16,
-    /// For how long a contender may cast in a round, in milliseconds.
+    /// For how long a contender may cast in a round, in milliseconds; tiles are those of the whole picture.
     pub limit_ms: u128,
     /// What is measured.
     pub what: &'static str,
@@ -176,7 +176,7 @@ fn told(report: &Report) -> String {
     }
     told += "worst: the largest error of a distance, relative to it, against f64; wrong: hits of what is missed, and misses of \
              what is hit\ntraced: sphere tracers, by their epsilon and most steps; a contender casts no more pixels than take ";
-    told += &format!("{} ms", report.limit_ms);
+    told += &format!("{} ms, but for tiles: all", report.limit_ms);
     if report.width < report.asked_width {
         let Report {
             asked_width, asked_height, ..
