@@ -3,6 +3,7 @@
 use glam::Vec3;
 use gsdf_nostd::{Mask, Surface};
 use gsdf_simd::{Hits, LaneMask, Lanes, MOST_LANES, Pixel, TILE_SIDE, Target, Tile, Wants};
+use rayon::prelude::*;
 
 /// What one ray met.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -69,6 +70,11 @@ impl Frame {
 }
 
 impl Frame {
+    /// The rows, from the top, for threads to fill.
+    pub fn rows_mut(&mut self) -> impl IndexedParallelIterator<Item = &mut [Option<Met>]> {
+        self.pixels.par_chunks_exact_mut(self.width.max(1))
+    }
+
     /// The frame as the target of a renderer.
     pub fn as_target(&mut self) -> FrameRows<'_> {
         FrameRows {

@@ -7,7 +7,7 @@
 //! - [`gallery`], [`sheet`], [`output`] and [`progress`]: the pictures as files, and the table about them.
 //! - [`shapes`]: a picture of each shape there is, all on one sheet and each for its documentation.
 //! - [`model`]: models of OpenSCAD, read from files.
-//! - [`commands`]: what the command line does with them. [`command_line`]: what one can ask for.
+//! - [`command_line`]: what one can ask for. [`job`]: what is meant by it. [`commands`]: what is done with models.
 //! - [`paper`]: the composition of the paper this library repairs, in the ways it can be read, measured.
 
 pub mod command_line;
@@ -15,6 +15,7 @@ pub mod commands;
 pub mod edges;
 pub mod frame;
 pub mod gallery;
+pub mod job;
 pub mod leave;
 pub mod light;
 pub mod model;

@@ -1,7 +1,8 @@
 //! `gsdf`: pictures of CSG solids and answers about models.
 
 use clap::Parser;
-use gsdf_demo::command_line::{CommandLine, Job, in_one_line};
+use gsdf_demo::command_line::{CommandLine, in_one_line};
+use gsdf_demo::job::Job;
 use std::io::{self, Write};
 use std::process::ExitCode;
 

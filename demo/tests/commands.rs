@@ -1,35 +1,14 @@
 //! The program as one calls it: what it prints, where it ends, and what it leaves behind.
 
+mod program;
+
 use anyhow::{Context, Result};
 use gsdf_demo::model::Model;
 use gsdf_demo::model::evaluate::Reading;
 use gsdf_nostd::{Ray, Span};
-use std::fmt::Write as _;
+use program::{MODEL, directory, done, ends_in_peace, piped, rays, refused, written};
 use std::fs;
 use std::io::{Read, Write};
-use std::path::Path;
-use std::process::{Command, Output, Stdio};
-
-const MODEL: &str = "color([1, 0, 0, 1]) {\n\tdifference() {\n\t\tcube(size = [4, 4, 4], center = true);\n\t\tcylinder($fn = 0, $fa = 12, $fs = 2, h = 9, r1 = 1, r2 = 1, center = true);\n\t}\n}\nmultmatrix([[0.6, -0.8, 0, 9], [0.8, 0.6, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]) {\n\tcylinder($fn = 6, $fa = 12, $fs = 2, h = 2, r1 = 2, r2 = 1, center = false);\n}\n";
-
-fn gsdf(directory: &Path, arguments: &[&str]) -> Result<Output> {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_gsdf"));
-    Ok(command.current_dir(directory).args(arguments).stdin(Stdio::null()).output()?)
-}
-
-/// A directory with a model in it.
-fn directory() -> Result<tempfile::TempDir> {
-    let directory = tempfile::tempdir()?;
-    fs::write(directory.path().join("part.csg"), MODEL)?;
-    Ok(directory)
-}
-
-fn done(directory: &Path, arguments: &[&str]) -> Result<String> {
-    let output = gsdf(directory, arguments)?;
-    anyhow::ensure!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    anyhow::ensure!(output.stderr.is_empty(), "{}", String::from_utf8_lossy(&output.stderr));
-    Ok(String::from_utf8(output.stdout)?)
-}
 
 #[test]
 fn what_is_wrong_is_one_line_status_two_and_no_file() -> Result<()> {
@@ -38,7 +17,6 @@ fn what_is_wrong_is_one_line_status_two_and_no_file() -> Result<()> {
     fs::write(directory.path().join("binary.csg"), b"cube(1);\n\xff\xfe\0")?;
     fs::write(directory.path().join("empty.csg"), "group();")?;
     fs::write(directory.path().join("rays"), "0 0 9 0 0 -1\n1 2 three 4 5 6\n")?;
-    let before = fs::read_dir(directory.path())?.count();
     for (arguments, named) in [
         (&["render", "missing.csg", "--out", "a.png"][..], "missing.csg"),
         (
@@ -69,15 +47,7 @@ fn what_is_wrong_is_one_line_status_two_and_no_file() -> Result<()> {
         (&["export", "part.csg", "--out", "a.rs"], "--rust"),
         (&["frobnicate"], "frobnicate"),
     ] {
-        let output = gsdf(directory.path(), arguments)?;
-        let told = String::from_utf8(output.stderr)?;
-        assert_eq!(output.status.code(), Some(2), "{arguments:?}: {told}");
-        assert!(
-            told.starts_with("error: ") && told.contains(named) && told.lines().count() == 1,
-            "{arguments:?}: {told}"
-        );
-        assert!(output.stdout.is_empty(), "{arguments:?}");
-        assert_eq!(fs::read_dir(directory.path())?.count(), before, "{arguments:?}");
+        refused(directory.path(), arguments, named)?;
     }
     Ok(())
 }
@@ -139,38 +109,11 @@ fn every_kind_of_picture_is_written() -> Result<()> {
     Ok(())
 }
 
-/// Rays from all around, toward a place near the middle.
-fn rays(count: u32) -> Vec<[f32; 6]> {
-    let ray = |number: u32| {
-        let (a, b) = (number as f32 * 0.618_034 * std::f32::consts::TAU, (number % 97) as f32 / 48.0 - 1.0);
-        let flat = (1.0 - b * b).max(0.0).sqrt();
-        let origin = [20.0 * a.cos() * flat, 20.0 * a.sin() * flat, 20.0 * b];
-        let target = [
-            (number % 13) as f32 - 3.0,
-            (number % 5) as f32 * 0.5 - 1.0,
-            (number % 7) as f32 * 0.5 - 1.5,
-        ];
-        [
-            origin[0],
-            origin[1],
-            origin[2],
-            target[0] - origin[0],
-            target[1] - origin[1],
-            target[2] - origin[2],
-        ]
-    };
-    (0..count).map(ray).collect()
-}
-
 #[test]
 fn rays_are_answered_in_order_with_what_the_program_says() -> Result<()> {
     let directory = directory()?;
     let rays = rays(5000);
-    let mut text = String::from("# ox oy oz dx dy dz\n");
-    for [a, b, c, d, e, f] in &rays {
-        writeln!(text, "{a} {b} {c} {d} {e} {f}")?;
-    }
-    fs::write(directory.path().join("rays"), text)?;
+    fs::write(directory.path().join("rays"), written(&rays))?;
     let first = done(directory.path(), &["cast", "part.csg", "--rays", "rays"])?;
     let all = done(directory.path(), &["cast", "part.csg", "--rays", "rays", "--all"])?;
     let json = done(
@@ -223,32 +166,16 @@ fn rays_are_answered_in_order_with_what_the_program_says() -> Result<()> {
 #[test]
 fn that_nobody_reads_on_is_no_error() -> Result<()> {
     let directory = directory()?;
-    let mut child = Command::new(env!("CARGO_BIN_EXE_gsdf"))
-        .current_dir(directory.path())
-        .args(["cast", "part.csg"])
-        .stdin(Stdio::piped())
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn()?;
-    let mut input = child.stdin.take().context("there is an input")?;
-    let mut output = child.stdout.take().context("there is an output")?;
-    // Beside the hole.
-    let line = b"1.5 0 9 0.01 0.02 -1\n";
-    input.write_all(line)?;
-    let mut answer = [0; 8];
-    // Answers come as soon as there are rays.
-    output.read_exact(&mut answer)?;
-    drop(output);
-    // As many as it takes until the program is gone.
-    let many = line.repeat(10_000);
-    for _ in 0..1000 {
-        if input.write_all(&many).is_err() {
-            break;
-        }
+    for tier in ["robust", "certified", "f64"] {
+        let (child, mut input, mut output) = piped(directory.path(), &["cast", "part.csg", "--tier", tier])?;
+        // Beside the hole.
+        let line = b"1.5 0 9 0.01 0.02 -1\n";
+        input.write_all(line)?;
+        let mut answer = [0; 8];
+        // Answers come as soon as there are rays.
+        output.read_exact(&mut answer)?;
+        drop(output);
+        ends_in_peace(child, input, line).with_context(|| tier)?;
     }
-    drop(input);
-    let ended = child.wait_with_output()?;
-    assert!(ended.status.success());
-    assert!(ended.stderr.is_empty(), "{}", String::from_utf8_lossy(&ended.stderr));
     Ok(())
 }

@@ -1,10 +1,12 @@
 //! What the command line does with a model of the user's.
 
+pub mod bench;
 pub mod cast;
 pub mod export;
 pub mod info;
 pub mod render;
 pub mod size;
+pub mod tier;
 pub mod trade;
 
 use crate::model::Model;

@@ -5,7 +5,7 @@ use anyhow::{Context, Result};
 use clap::builder::PossibleValuesParser;
 use clap::value_parser;
 use gsdf_simd::Level;
-use gsdf_trade::{Contender, Measured, NAMES, Scene, measure, svg};
+use gsdf_trade::{Contender, Measured, NAMES, measure, reference, svg};
 use serde::Serialize;
 use std::path::PathBuf;
 
@@ -61,8 +61,8 @@ impl Trade {
             "scene", "contender", "ns/ray", "95 % of the median", "p99", "worst", "wrong", "wrong leaf"
         ))?;
         for name in NAMES.iter().filter(asked) {
-            let scene = Scene::by_name(name, self.pixels)?;
-            let measured = measure(&scene, &contenders, usize::from(self.rounds), || {})?;
+            let scene = reference(name, self.pixels)?;
+            let measured = measure(&scene, &contenders, usize::from(self.rounds), None, || {})?;
             for one in &measured {
                 let interval = format!("{:.1}..{:.1}", one.ns_low, one.ns_high);
                 let leaf = one.wrong_leaf.map_or_else(|| "-".to_owned(), |wrong| wrong.to_string());

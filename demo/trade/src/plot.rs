@@ -20,8 +20,8 @@ pub fn svg(measured: &[Measured]) -> Result<String> {
     const PANEL: (u32, u32) = (560, 520);
     let mut scenes: Vec<&str> = Vec::new();
     for one in measured {
-        if !scenes.contains(&one.scene) {
-            scenes.push(one.scene);
+        if !scenes.contains(&one.scene.as_str()) {
+            scenes.push(&one.scene);
         }
     }
     let mut text = String::new();
@@ -50,7 +50,7 @@ fn draw(panel: &Panel<'_>, scene: &str, measured: &[&Measured]) -> Result<()> {
     let mut chart = ChartBuilder::on(panel)
         .margin(10)
         .caption(
-            format!("{scene}: filled marks are packets, hollow ones single rays"),
+            format!("{scene}: filled marks are packets and tiles, hollow ones single rays"),
             ("sans-serif", 14),
         )
         .x_label_area_size(40)

@@ -2,6 +2,7 @@
 
 mod beam;
 mod border;
+mod outline;
 mod reach;
 mod reduce;
 mod split;
@@ -11,6 +12,7 @@ mod visible;
 mod walk;
 
 pub(crate) use beam::{Beam, Grid};
+pub(crate) use outline::{Open, Outline, Remainder};
 pub(crate) use reduce::{Known, Reduced, Waiting};
 pub(crate) use tree::Group;
 pub(crate) use tree::{FANOUT, Tree};
@@ -47,6 +49,8 @@ pub struct Scene<'a, L> {
     bounded: usize,
     /// The trees of the parts' complements, or of their leaves.
     cuts: Vec<Tree>,
+    /// The outlines of the parts that are marched.
+    outlines: Vec<Outline>,
     /// The places of the half-spaces among the leaves, in order, with their planes.
     borders: Vec<(u32, Border)>,
     /// How far the parts that have bounds reach, along the longest axis.
@@ -91,8 +95,9 @@ pub(crate) enum Form {
     /// A product of so many solids and of the complements of the other leaves, whose boxes are in a tree of the scene, in
     /// the order of the leaves; [`NO_CUTS`](Form::NO_CUTS) where there are none.
     Product { positives: u32, cuts: u32 },
-    /// Anything: marched. Its leaves are those of these nodes, in order, with their boxes in a tree.
-    March { nodes: Range<u32>, cuts: u32 },
+    /// Anything: marched. Its leaves are in their order, with their boxes in a tree; of how they are joined there is an
+    /// outline.
+    March { outline: u32, cuts: u32 },
     /// The whole program.
     Whole,
 }
@@ -131,6 +136,7 @@ impl<'a, L: Solid> Scene<'a, L> {
                 .reduce(Reach::joined)
                 .map_or(0.0, |all| 2.0 * all.half.max_element()),
             cuts: Vec::new(),
+            outlines: Vec::new(),
             borders: Vec::new(),
             divides_by_components: nodes
                 .iter()
@@ -189,8 +195,10 @@ impl<'a, L: Solid> Scene<'a, L> {
                     }
                 }
                 self.cuts.push(Tree::new(&boxes));
+                let outline = self.outlines.len() as u32;
+                self.outlines.extend(nodes.get(subtree.nodes.clone()).and_then(Outline::new));
                 Form::March {
-                    nodes: subtree.nodes.start as u32..subtree.nodes.end as u32,
+                    outline,
                     cuts: self.cuts.len() as u32 - 1,
                 }
             }
@@ -320,6 +328,32 @@ impl<'a, L: Solid> Scene<'a, L> {
         self.cuts.get(number as usize)
     }
 
+    /// How a part that is marched is joined.
+    pub(crate) fn outline(&self, number: u32) -> Option<&Outline> {
+        self.outlines.get(number as usize)
+    }
+
+    /// The node of the leaf in a place.
+    pub(crate) fn node(&self, place: u32) -> Option<Node<L>> {
+        let (solid, frame) = self.leaf(place)?;
+        Some(Node::Leaf { solid: *solid, frame })
+    }
+
+    /// Adds to the leaves of a marched part whose boxes rays meet, by their numbers in it, what they see of half-spaces, and
+    /// puts all in order.
+    #[inline(always)]
+    pub(crate) fn know(&self, places: &Range<u32>, see: impl Fn(&Border) -> Known, known: &mut Vec<(u32, Known)>) {
+        known.sort_unstable_by_key(|(leaf, _)| *leaf);
+        for (place, border) in self.borders(places) {
+            let (leaf, seen) = (place - places.start, see(border));
+            match known.binary_search_by_key(&leaf, |(leaf, _)| *leaf) {
+                Ok(index) => known[index].1 = seen,
+                // They have no bounds, but what counts is what is seen of them.
+                Err(index) => known.insert(index, (leaf, seen)),
+            }
+        }
+    }
+
     /// For how much who visits the parts needs room.
     pub(crate) fn most(&self) -> Most {
         self.most
@@ -347,12 +381,14 @@ impl<'a, L: Solid> Scene<'a, L> {
     #[must_use]
     pub fn bytes(&self) -> usize {
         let trees: usize = self.cuts.iter().map(|tree| size_of::<Tree>() + tree.bytes()).sum();
+        let outlines: usize = self.outlines.iter().map(|outline| size_of::<Outline>() + outline.bytes()).sum();
         self.leaves.capacity() * size_of::<Literal<L>>()
             + self.places.capacity() * size_of::<u32>()
             + self.parts.capacity() * size_of::<Part>()
             + self.borders.capacity() * size_of::<(u32, Border)>()
             + self.tree.bytes()
             + trees
+            + outlines
     }
 }
 

@@ -104,7 +104,7 @@ impl<L: Copy> Reduced<'_, L> {
 }
 
 impl Known {
-    fn complement(self) -> Self {
+    pub(crate) fn complement(self) -> Self {
         match self {
             Self::Outside => Self::Inside,
             Self::Inside => Self::Outside,

@@ -1,6 +1,7 @@
 //! The program of what can be met through a square of pixels: all that others who cast rays there need to know of a scene.
 
-use super::reduce::{Known, Reduced, Waiting};
+use super::outline::{Open, Remainder};
+use super::reduce::Known;
 use super::{Beam, Form, Grid, Part, Scene, Tree, Walk};
 use crate::lanes::F32x8;
 use core::ops::Range;
@@ -18,12 +19,12 @@ pub struct Visible<L> {
     met: Vec<u32>,
     /// The parts that it meets.
     parts: Vec<u32>,
-    /// What the reduction of a marched part works in: the places of its leaves, what is known of them, and the outcome.
-    every_place: Vec<u32>,
-    known: Vec<Known>,
+    /// The leaves of the part at hand: of a product their places, of one that is marched their numbers.
     places: Vec<u32>,
+    /// What the reduction of a marched part works in: what is known of its leaves, and the outcome.
+    known: Vec<(u32, Known)>,
     reduced: Vec<Node<L>>,
-    waiting: Vec<Waiting>,
+    open: Vec<Open>,
 }
 
 impl<L> Default for Visible<L> {
@@ -42,11 +43,10 @@ impl<L> Visible<L> {
             walk: Walk::new(),
             met: Vec::new(),
             parts: Vec::new(),
-            every_place: Vec::new(),
-            known: Vec::new(),
             places: Vec::new(),
+            known: Vec::new(),
             reduced: Vec::new(),
-            waiting: Vec::new(),
+            open: Vec::new(),
         }
     }
 
@@ -100,7 +100,8 @@ impl<L: Solid> Scene<'_, L> {
     /// spheres may be traced over it: its standard distance is a step that passes no surface which these rays cross, and
     /// as a rule a longer one than that of the whole program. What hides behind something else is part of it.
     ///
-    /// Takes time proportional to what is found (for parts that are marched, to their leaves) and to the logarithm of all.
+    /// Takes time proportional to what is found (for parts that are marched, also to their half-spaces) and to the logarithm of
+    /// all.
     ///
     /// ```
     /// use gsdf_nostd::{Camera, Program, Sphere, csg};
@@ -136,7 +137,7 @@ impl<L: Solid> Scene<'_, L> {
             let Some(Part { leaves, form }) = part else { continue };
             let known = match form {
                 Form::Product { positives, cuts } => self.add_product(&beam, leaves, *positives, *cuts, visible),
-                Form::March { nodes, cuts } => self.add_marched(&beam, leaves, nodes, *cuts, visible),
+                Form::March { outline, cuts } => self.add_marched(&beam, leaves, *outline, *cuts, visible),
                 Form::Whole => Known::Outside,
             };
             if known == Known::Inside {
@@ -181,36 +182,26 @@ impl<L: Solid> Scene<'_, L> {
     }
 
     /// Adds any other part, reduced to the leaves that the beam meets.
-    fn add_marched(&self, beam: &Beam, leaves: &Range<u32>, nodes: &Range<u32>, cuts: u32, visible: &mut Visible<L>) -> Known {
-        let nodes = self.program().nodes().get(nodes.start as usize..nodes.end as usize);
-        let (Some(nodes), Some(tree)) = (nodes, self.cuts(cuts)) else {
+    fn add_marched(&self, beam: &Beam, leaves: &Range<u32>, outline: u32, cuts: u32, visible: &mut Visible<L>) -> Known {
+        let (Some(outline), Some(tree)) = (self.outline(outline), self.cuts(cuts)) else {
             return Known::Outside;
         };
         visible.meet(beam, tree);
         visible.known.clear();
-        visible.known.resize(leaves.len(), Known::Outside);
-        for leaf in &visible.met {
-            if let Some(known) = visible.known.get_mut(*leaf as usize) {
-                *known = Known::Open;
-            }
-        }
-        for (place, border) in self.borders(leaves) {
-            if let Some(known) = visible.known.get_mut((place - leaves.start) as usize) {
-                *known = beam.see(border);
-            }
-        }
-        visible.every_place.clear();
-        visible.every_place.extend(leaves.clone());
-        let mut reduced = Reduced {
+        visible.known.extend(visible.met.iter().map(|leaf| (*leaf, Known::Open)));
+        self.know(leaves, |border| beam.see(border), &mut visible.known);
+        let mut remainder = Remainder {
             nodes: &mut visible.reduced,
-            places: &mut visible.places,
-            waiting: &mut visible.waiting,
+            leaves: &mut visible.places,
+            open: &mut visible.open,
         };
-        let known = reduced.reduce(nodes, &visible.every_place, &visible.known);
+        let known = outline.reduce(&visible.known, &mut remainder, |leaf| self.node(leaves.start + leaf));
         if known == Known::Open {
             let is_first = visible.nodes.is_empty();
             visible.nodes.append(&mut visible.reduced);
-            visible.leaves.extend(visible.places.iter().map(|place| self.number(*place)));
+            visible
+                .leaves
+                .extend(visible.places.iter().map(|leaf| self.number(leaves.start + leaf)));
             visible.unite(is_first);
         }
         known

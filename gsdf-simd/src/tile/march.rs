@@ -3,9 +3,9 @@
 use super::leaf::{self, Use};
 use super::state::{MOST_SPANS, Workspace};
 use crate::lanes::{Lanes, MOST_LANES};
-use crate::scene::{FANOUT, Form, Known, Meets, Reduced, View};
+use crate::scene::{FANOUT, Form, Known, Meets, Outline, Reduced, Remainder, Scene, View};
 use core::ops::Range;
-use gsdf_nostd::{Mask, Node, Solid, Span, attribute, march};
+use gsdf_nostd::{Mask, Solid, Span, attribute, march};
 
 /// A part of the program with its leaves in these places, or the whole of it, cast at by some packets of a tile. The
 /// whole of it is for rays that start inside: it is found where they first leave or enter.
@@ -20,18 +20,17 @@ pub(crate) fn cast<T: Lanes, L: Solid, M: Meets<T>>(
     work: &mut Workspace<T, L>,
 ) {
     let scene = view.scene;
-    let all = matches!(form, Form::Whole);
-    let (nodes, tree) = match form {
-        Form::March { nodes, cuts } => (
-            scene.program().nodes().get(nodes.start as usize..nodes.end as usize),
-            scene.cuts(*cuts),
-        ),
-        _ => (Some(scene.program().nodes()), Some(scene.tree())),
+    let part = match form {
+        Form::March { outline, cuts } => scene.outline(*outline).zip(scene.cuts(*cuts)),
+        _ => None,
     };
-    let (Some(nodes), Some(tree)) = (nodes, tree) else { return };
+    let tree = part.map_or(scene.tree(), |(_, tree)| tree);
+    let all = part.is_none();
     work.known.clear();
-    work.known
-        .resize(if all { scene.program().leaves() } else { places.len() }, Known::Outside);
+    work.met_leaves.clear();
+    if all {
+        work.known.resize(scene.program().leaves(), Known::Outside);
+    }
     work.inner_walk.begin(tree);
     while let Some(item) = work.inner_walk.next::<T, M>(token, tree, rays, f32::INFINITY) {
         let mut bits = work.inner_walk.met.bits;
@@ -40,37 +39,53 @@ pub(crate) fn cast<T: Lanes, L: Solid, M: Meets<T>>(
             bits &= bits - 1;
             if all {
                 scene.mark(item + place, &mut work.known);
-            } else if let Some(known) = work.known.get_mut(item + place) {
-                *known = Known::Open;
+            } else {
+                work.met_leaves.push(((item + place) as u32, Known::Open));
             }
         }
     }
-    work.every_place.clear();
-    if all {
-        for part in scene.unbounded() {
-            scene.mark(part, &mut work.known);
+    let known = match part {
+        Some((outline, _)) => {
+            scene.know(
+                &places,
+                #[inline(always)]
+                |border| rays.see(border),
+                &mut work.met_leaves,
+            );
+            remainder(scene, outline, places.start, work)
         }
-        work.every_place.extend_from_slice(scene.places());
-    } else {
-        for (place, border) in scene.borders(&places) {
-            if let Some(known) = work.known.get_mut((place - places.start) as usize) {
-                *known = rays.see(border);
+        None => {
+            for part in scene.unbounded() {
+                scene.mark(part, &mut work.known);
             }
+            reduce(scene, work)
         }
-        work.every_place.extend(places);
-    }
-    let known = reduce(nodes, work);
+    };
     march_reduced(token, view, known, which, all, work);
 }
 
-/// Reduces a program to its open leaves.
-fn reduce<T: Lanes, L: Solid>(nodes: &[Node<L>], work: &mut Workspace<T, L>) -> Known {
+/// Reduces a part to the leaves that are met.
+fn remainder<T: Lanes, L: Solid>(scene: &Scene<'_, L>, outline: &Outline, first: u32, work: &mut Workspace<T, L>) -> Known {
+    let mut remainder = Remainder {
+        nodes: &mut work.nodes,
+        leaves: &mut work.places,
+        open: &mut work.open,
+    };
+    let known = outline.reduce(&work.met_leaves, &mut remainder, |leaf| scene.node(first + leaf));
+    for leaf in &mut work.places {
+        *leaf += first;
+    }
+    known
+}
+
+/// Reduces the whole program to its open leaves.
+fn reduce<T: Lanes, L: Solid>(scene: &Scene<'_, L>, work: &mut Workspace<T, L>) -> Known {
     let mut reduced = Reduced {
         nodes: &mut work.nodes,
         places: &mut work.places,
         waiting: &mut work.waiting,
     };
-    reduced.reduce(nodes, &work.every_place, &work.known)
+    reduced.reduce(scene.program().nodes(), scene.places(), &work.known)
 }
 
 /// Marches some packets through the reduced program. Where that is `all` there is, what they meet replaces whatever was

@@ -3,7 +3,7 @@
 use super::product::Product;
 use super::rays::{MOST_PACKETS, Rays};
 use crate::lanes::Lanes;
-use crate::scene::{Known, Most, Waiting, Walk};
+use crate::scene::{Known, Most, Open, Waiting, Walk};
 use gsdf_nostd::{Mask, Node, Span};
 
 /// How many spans a march keeps at once; of programs with more leaves fewer packets are marched together.
@@ -155,10 +155,12 @@ pub(crate) struct Workspace<T: Lanes, L> {
     pub(crate) nodes: Vec<Node<L>>,
     /// The places of its leaves in the scene.
     pub(crate) places: Vec<u32>,
-    /// The places of the leaves of what is reduced, in order.
-    pub(crate) every_place: Vec<u32>,
-    /// What the tile's rays see of them.
+    /// What the tile's rays see of the leaves of the whole program.
     pub(crate) known: Vec<Known>,
+    /// Those of a part that they meet.
+    pub(crate) met_leaves: Vec<(u32, Known)>,
+    /// The joints that are open while a part is reduced.
+    pub(crate) open: Vec<Open>,
     /// The operands that wait while a program is reduced: whether they are known to be inside or outside, and where
     /// their nodes and leaves start.
     pub(crate) waiting: Vec<Waiting>,
@@ -185,8 +187,9 @@ impl<T: Lanes, L> Workspace<T, L> {
             product: Product::new(token),
             nodes: Vec::new(),
             places: Vec::new(),
-            every_place: Vec::new(),
             known: Vec::new(),
+            met_leaves: Vec::new(),
+            open: Vec::new(),
             waiting: Vec::new(),
             cuts: Vec::new(),
             computed: 0,
@@ -199,9 +202,8 @@ impl<T: Lanes, L> Workspace<T, L> {
         self.cuts.reserve(cuts);
         self.nodes.reserve(2 * marched);
         self.places.reserve(marched);
-        self.every_place.reserve(marched);
-        self.known.reserve(marched);
-        self.waiting.reserve(marched);
+        self.met_leaves.reserve(marched);
+        self.open.reserve(marched);
         let spans = (marched * MOST_PACKETS).min(marched.max(MOST_SPANS));
         if let (Some(empty), true) = (self.spans.first().copied(), self.spans.len() < spans) {
             self.spans.resize(spans, empty);

@@ -1,9 +1,12 @@
 //! What rays cross, as lines of text.
 
 use super::lines::Piece;
+use crate::commands::tier;
+use crate::commands::tier::{Alone, Certainty, Distance, Tier};
 use glam::Vec3;
-use gsdf_nostd::{Anywhere, Hit, Leaf, Program, Ray, Span, march};
+use gsdf_nostd::{Leaf, Program, Ray, Span};
 use gsdf_simd::{Caster, Level, Pixel, RayHits, Rays, Scene};
+use gsdf_trade::Primitive;
 use serde::Serialize;
 
 /// How rays are answered.
@@ -18,23 +21,28 @@ pub struct Form {
 /// Answers the rays of a model.
 pub struct Answers<'m> {
     program: Program<'m>,
+    /// The same, for rays that are cast one by one.
+    solids: Program<'m, Primitive>,
+    /// Casts rays in the tier that is prepared for it.
     caster: Caster<'m, 'm, Leaf>,
+    tier: Tier,
     form: Form,
 }
 
 /// A crossing.
 #[derive(Clone, Copy, Debug, Serialize)]
 struct Crossing {
-    distance: f32,
+    distance: Distance,
     normal: [f32; 3],
     leaf: u32,
     entering: bool,
 }
 
-impl From<Hit> for Crossing {
-    fn from(hit: Hit) -> Self {
+impl From<tier::Crossing> for Crossing {
+    fn from(crossing: tier::Crossing) -> Self {
+        let hit = crossing.hit;
         Self {
-            distance: hit.t,
+            distance: crossing.distance,
             normal: hit.normal.to_array(),
             leaf: hit.leaf,
             entering: hit.entering,
@@ -42,10 +50,20 @@ impl From<Hit> for Crossing {
     }
 }
 
-/// The answer to a ray that crosses nothing.
-#[derive(Serialize)]
-struct Miss {
-    miss: bool,
+/// The first crossing of a ray, if there is one, and how certain that is, if that was asked for.
+#[derive(Clone, Copy, Serialize)]
+struct First {
+    #[serde(flatten)]
+    crossing: Found,
+    #[serde(flatten)]
+    certainty: Option<Certainty>,
+}
+
+#[derive(Clone, Copy, Serialize)]
+#[serde(untagged)]
+enum Found {
+    Hit(Crossing),
+    Miss { miss: bool },
 }
 
 /// The answer to a ray with all that it crosses.
@@ -56,12 +74,14 @@ struct All<'c> {
 }
 
 impl<'m> Answers<'m> {
-    /// For the rays of a program.
+    /// For the rays of a scene, in a tier; `solids` are its program.
     #[must_use]
-    pub fn new(program: Program<'m>, scene: &'m Scene<'m, Leaf>, level: Level, form: Form) -> Self {
+    pub fn new(solids: Program<'m, Primitive>, scene: &'m Scene<'m, Leaf>, level: Level, tier: Tier, form: Form) -> Self {
         Self {
-            program,
+            program: *scene.program(),
+            solids,
             caster: Caster::at_level(scene, level),
+            tier,
             form,
         }
     }
@@ -71,9 +91,9 @@ impl<'m> Answers<'m> {
     pub fn of(&self, piece: &Piece) -> Vec<u8> {
         let mut text = Text::default();
         if self.form.all {
-            let mut spans = vec![Span::EMPTY; self.program.leaves()];
+            let mut alone = Alone::new(self.solids, self.tier);
             for (ray, number) in piece.rays.iter().zip(piece.first..) {
-                let crossings = self.crossings(ray, &mut spans);
+                let crossings: Vec<Crossing> = alone.all(ray).into_iter().map(Crossing::from).collect();
                 if self.form.json {
                     text.json(&All {
                         ray: number,
@@ -84,23 +104,38 @@ impl<'m> Answers<'m> {
                 for crossing in crossings.iter().copied().map(Some).chain(crossings.is_empty().then_some(None)) {
                     text.integer(number);
                     text.bytes.push(b' ');
-                    text.crossing(crossing);
+                    text.answer(crossing, None);
                 }
             }
-        } else {
-            for crossing in self.first(&piece.rays) {
-                match (self.form.json, crossing) {
-                    (false, crossing) => text.crossing(crossing),
-                    (true, Some(crossing)) => text.json(&crossing),
-                    (true, None) => text.json(&Miss { miss: true }),
-                }
+            return text.bytes;
+        }
+        let firsts = match self.tier {
+            Tier::Robust => self.together(&piece.rays),
+            _ => self.one_by_one(&piece.rays),
+        };
+        for (crossing, certainty) in firsts {
+            if self.form.json {
+                let crossing = crossing.map_or(Found::Miss { miss: true }, Found::Hit);
+                text.json(&First { crossing, certainty });
+            } else {
+                text.answer(crossing, certainty);
             }
         }
         text.bytes
     }
 
-    /// The first crossing of each ray.
-    fn first(&self, rays: &[Ray]) -> Vec<Option<Crossing>> {
+    /// The first crossing of each ray, and how certain it is.
+    fn one_by_one(&self, rays: &[Ray]) -> Vec<(Option<Crossing>, Option<Certainty>)> {
+        let mut alone = Alone::new(self.solids, self.tier);
+        let first = |ray| {
+            let (crossing, certainty) = alone.first(ray);
+            (crossing.map(Crossing::from), certainty)
+        };
+        rays.iter().map(first).collect()
+    }
+
+    /// The first crossing of each ray, in the robust tier, of which nothing is certified.
+    fn together(&self, rays: &[Ray]) -> Vec<(Option<Crossing>, Option<Certainty>)> {
         let axis = |of: fn(&Ray) -> Vec3, axis: usize| rays.iter().map(|ray| of(ray)[axis]).collect::<Vec<_>>();
         let origin: [_; 3] = core::array::from_fn(|number| axis(Ray::origin, number));
         let direction: [_; 3] = core::array::from_fn(|number| axis(Ray::direction, number));
@@ -119,15 +154,16 @@ impl<'m> Answers<'m> {
         // All slices are equally long.
         let _ = self.caster.cast(&batch, hits);
         let crossing = |(number, ray): (usize, &Ray)| {
-            (leaf[number] != Pixel::NO_LEAF).then(|| {
+            let crossing = (leaf[number] != Pixel::NO_LEAF).then(|| {
                 let normal = Vec3::new(x[number], y[number], z[number]);
                 Crossing {
-                    distance: distance[number],
+                    distance: Distance::Single(distance[number]),
                     normal: normal.to_array(),
                     leaf: leaf[number],
                     entering: self.is_entering(ray, normal),
                 }
-            })
+            });
+            (crossing, None)
         };
         rays.iter().enumerate().map(crossing).collect()
     }
@@ -145,23 +181,6 @@ impl<'m> Answers<'m> {
         let hit = self.program.along(*ray, &mut spans).ok().and_then(|sight| sight.cast());
         hit.is_none_or(|hit| hit.entering)
     }
-
-    /// All crossings of a ray, in order.
-    fn crossings(&self, ray: &Ray, spans: &mut [Span<f32>]) -> Vec<Crossing> {
-        let line = ray.line(0.0);
-        self.program.spans_along(&line, Anywhere, spans);
-        let mut crossings = Vec::new();
-        let mut t = ray.start_on_line(0.0);
-        loop {
-            t = march(self.program.nodes(), spans, t).t;
-            let parameter = ray.parameter_of(t);
-            if !parameter.is_finite() {
-                return crossings;
-            }
-            let met = self.program.surface_at(&line, Anywhere, spans, t);
-            crossings.push(Hit::new(ray, parameter, &met).into());
-        }
-    }
 }
 
 /// Lines being written.
@@ -177,28 +196,37 @@ impl Text {
         self.bytes.push(b'\n');
     }
 
-    fn crossing(&mut self, crossing: Option<Crossing>) {
-        let Some(Crossing {
-            distance,
-            normal: [x, y, z],
-            leaf,
-            entering,
-        }) = crossing
-        else {
-            self.bytes.extend_from_slice(b"miss\n");
-            return;
-        };
-        for number in [distance, x, y, z] {
+    fn answer(&mut self, crossing: Option<Crossing>, certainty: Option<Certainty>) {
+        match crossing {
+            Some(crossing) => self.crossing(&crossing),
+            None => self.bytes.extend_from_slice(b"miss"),
+        }
+        if let Some(certainty) = certainty {
+            self.bytes.push(b' ');
+            self.number(certainty.bound);
+            self.bytes.push(b' ');
+            self.bytes.extend_from_slice(certainty.name().as_bytes());
+        }
+        self.bytes.push(b'\n');
+    }
+
+    fn crossing(&mut self, crossing: &Crossing) {
+        match crossing.distance {
+            Distance::Single(distance) => self.number(distance),
+            Distance::Double(distance) => self.number(distance),
+        }
+        self.bytes.push(b' ');
+        for number in crossing.normal {
             self.number(number);
             self.bytes.push(b' ');
         }
-        self.integer(u64::from(leaf));
-        let side: &[u8] = if entering { b" entering\n" } else { b" leaving\n" };
+        self.integer(u64::from(crossing.leaf));
+        let side: &[u8] = if crossing.entering { b" entering" } else { b" leaving" };
         self.bytes.extend_from_slice(side);
     }
 
     /// The shortest text that reads back to this number.
-    fn number(&mut self, number: f32) {
+    fn number(&mut self, number: impl zmij::Float) {
         let mut buffer = zmij::Buffer::new();
         let text = buffer.format(number);
         self.bytes.extend_from_slice(text.strip_suffix(".0").unwrap_or(text).as_bytes());

@@ -3,12 +3,14 @@
 pub mod answer;
 pub mod lines;
 
+use super::tier::Tier;
 use super::{ModelFile, Settings};
 use crate::output::{WholeFile, directory_of, prepare, say_bytes};
 use answer::{Answers, Form};
 use anyhow::{Context, Result, bail};
 use clap::Args;
 use gsdf_simd::Scene;
+use gsdf_trade::Solids;
 use lines::{Block, Piece};
 use rayon::ThreadPoolBuilder;
 use rayon::prelude::*;
@@ -29,6 +31,11 @@ pub struct Cast {
     /// Tell every crossing, one per line, each after the number of its ray, from 0, instead of the first one of each ray
     #[arg(long)]
     pub all: bool,
+    /// In what arithmetic rays are cast. `f64` tells distances in double precision; `certified` adds to each answer by how
+    /// much the distance may be off, and whether `single` or `double` precision proved what the ray meets or, at a `tie`, a
+    /// rule decided
+    #[arg(long, value_enum, default_value_t, value_name = "TIER")]
+    pub tier: Tier,
     /// Answer each ray with a line of JSON
     #[arg(long)]
     pub json: bool,
@@ -56,9 +63,12 @@ impl Cast {
     /// Distances are in units of the direction's length.
     ///
     /// # Errors
-    /// Where the model or the rays cannot be read, or the answers cannot be written. Rays before a line that is none are
+    /// Where more is asked than the tier can tell, the model or the rays cannot be read, or the answers cannot be written. Rays before a line that is none are
     /// answered.
     pub fn run(&self, settings: &Settings) -> Result<()> {
+        if self.all && self.tier == Tier::Certified {
+            bail!("--all --tier certified: only first crossings are certified; take one of the two, or --tier f64");
+        }
         let model = self.model.load()?;
         let program = model.solid()?;
         let mut input: Box<dyn Read> = match &self.rays {
@@ -77,12 +87,13 @@ impl Cast {
             .num_threads(settings.threads.unwrap_or_default())
             .build()
             .context("cannot start the threads")?;
+        let solids = Solids::of(&program)?;
         let scene = Scene::new(program);
         let form = Form {
             all: self.all,
             json: self.json,
         };
-        let answers = Answers::new(program, &scene, settings.level, form);
+        let answers = Answers::new(solids.program()?, &scene, settings.level, self.tier, form);
         let (mut block, mut line, mut ray) = (Block::default(), 1, 0);
         while block.fill(&mut input).with_context(|| format!("cannot read {source}"))? {
             let lines = match block.lines() {

@@ -1,9 +1,11 @@
 //! Pictures that are data: 16 bits for each number, and 0 where a ray hits nothing.
 
 use crate::commands::size::Size;
+use crate::commands::tier::{Alone, Tier};
 use crate::frame::{Frame, Met};
 use anyhow::{Result, bail};
-use gsdf_nostd::{Program, Raster, Span};
+use gsdf_nostd::{Program, Raster};
+use gsdf_trade::Primitive;
 use image::{ImageBuffer, Luma, Pixel, Rgb};
 use rayon::prelude::*;
 
@@ -50,22 +52,19 @@ pub fn id(frame: &Frame, size: Size, leaves: usize) -> Result<Picture<Luma<u16>>
     Ok(picture(frame, size, |met| Luma([met.leaf as u16 + 1])))
 }
 
-/// The sweeps that every ray takes, and what to do with each finished row.
+/// The sweeps that every ray takes in a tier, and what to do with each finished row.
 #[must_use]
-pub fn sweeps(program: Program<'_>, raster: Raster, row_done: impl Fn(u64) + Sync) -> Picture<Luma<u16>> {
+pub fn sweeps(program: Program<'_, Primitive>, raster: Raster, tier: Tier, row_done: impl Fn(u64) + Sync) -> Picture<Luma<u16>> {
     let mut image = Picture::new(raster.width(), raster.height());
     image
         .par_chunks_mut(raster.width().max(1) as usize)
         .zip(0..raster.height())
         .for_each_init(
-            || vec![Span::<f32>::EMPTY; program.leaves()],
-            |spans, (row, y)| {
+            || Alone::new(program, tier),
+            |alone, (row, y)| {
                 for (pixel, x) in row.iter_mut().zip(0..) {
-                    let taken = raster
-                        .ray(x, y)
-                        .ok()
-                        .and_then(|ray| Some(program.along(ray, spans).ok()?.march::<f32>().sweeps));
-                    *pixel = u16::try_from(taken.unwrap_or(0)).unwrap_or(u16::MAX);
+                    let taken = raster.ray(x, y).map_or(0, |ray| alone.sweeps(&ray));
+                    *pixel = u16::try_from(taken).unwrap_or(u16::MAX);
                 }
                 row_done(1);
             },

@@ -1,18 +1,22 @@
 //! `gsdf render`: a picture of a model, in colours or as data.
 
+pub mod alone;
 pub mod data;
 pub mod paint;
 pub mod view;
 
 use super::size::Size;
+use super::tier::Tier;
 use super::{ModelFile, Settings};
 use crate::frame::Frame;
 use crate::model::Model;
 use crate::output::{directory_of, encode, prepare, say, write_whole};
 use crate::progress::progress_bar;
-use anyhow::{Context, Result};
+use alone::Settlements;
+use anyhow::{Context, Result, bail};
 use clap::{Args, ValueEnum};
 use gsdf_simd::{Level, Renderer, Scene};
+use gsdf_trade::Solids;
 use image::codecs::png::CompressionType;
 use image::imageops::flip_horizontal_in_place;
 use indicatif::ProgressBar;
@@ -35,6 +39,9 @@ pub struct Render {
     /// What of it a pixel shows
     #[arg(long, value_enum, default_value_t, value_name = "WHAT")]
     pub aov: Aov,
+    /// In what arithmetic rays are cast; all but `robust` take every ray past every leaf. Shadows are always robust
+    #[arg(long, value_enum, default_value_t, value_name = "TIER")]
+    pub tier: Tier,
     /// How many rays go through a pixel that differs from its neighbours: 1, 4, 9, 16 and on to 64
     #[arg(long, value_name = "N", default_value = "16")]
     pub samples: Samples,
@@ -78,13 +85,18 @@ pub struct Summary {
     pub near: Option<f32>,
     /// The greatest one.
     pub far: Option<f32>,
+    /// The arithmetic that rays were cast in.
+    pub tier: Tier,
+    /// How the rays through the middles of the pixels were settled, in the certified tier.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub settled: Option<Settlements>,
     /// What casting one ray through each pixel took, in milliseconds.
     pub cast_ms: f64,
     /// What all took, from reading the model to the written file.
     pub total_ms: f64,
     /// The threads.
     pub threads: usize,
-    /// The vectors that rays were cast in.
+    /// The vectors that rays are cast in where they are cast together.
     pub level: &'static str,
 }
 
@@ -95,9 +107,12 @@ impl Render {
     /// Renders it to a file and sums up on standard output.
     ///
     /// # Errors
-    /// Where the model cannot be read, no camera sees it, or the file cannot be written.
+    /// Where more is asked than the tier can tell, the model cannot be read, no camera sees it, or the file cannot be written.
     pub fn run(&self, settings: &Settings) -> Result<()> {
         let begin = Instant::now();
+        if self.aov == Aov::Sweeps && self.tier == Tier::Certified {
+            bail!("--aov sweeps --tier certified: it may take the sweeps of several tiers; take one of the two, or --tier f64");
+        }
         let model = self.model.load()?;
         model.solid()?;
         let file = settings.out.clone().unwrap_or_else(|| self.usual_file());
@@ -135,18 +150,27 @@ impl Render {
     fn picture(&self, model: &Model, size: Size, level: Level) -> Result<(Vec<u8>, Summary)> {
         let program = model.solid()?;
         let raster = self.view.raster(model.reach(), size)?;
+        let solids = Solids::of(&program)?;
+        let solids = solids.program()?;
         let scene = Scene::new(program);
         let mut frame = Frame::new(size.width, size.height);
-        let bar = progress_bar(u64::from(size.height) + 1);
+        // Every row is cast, and then lit.
+        let bar = progress_bar(2 * u64::from(size.height));
         let begin = Instant::now();
-        let hits = Renderer::at_level(&scene, raster, level).render(frame.as_target()).hits;
+        let (hits, settled) = match self.tier {
+            Tier::Robust => {
+                let hits = Renderer::at_level(&scene, raster, level).render(frame.as_target()).hits;
+                bar.inc(u64::from(size.height));
+                (hits, None)
+            }
+            tier => alone::cast(&mut frame, solids, raster, tier, |rows| bar.inc(rows)),
+        };
         let cast_ms = 1e3 * begin.elapsed().as_secs_f64();
-        bar.inc(1);
         let depths = data::depths(&frame, size.height);
         let mut smoothed = 0;
         let png = match self.aov {
             Aov::Color => {
-                let painter = Painter::new(model, &scene, raster, level, self.samples);
+                let painter = Painter::new(model, &scene, solids, raster, level, self.tier, self.samples);
                 let (image, count) = painter.paint(&frame, &bar);
                 smoothed = count;
                 seen(image)
@@ -154,7 +178,7 @@ impl Render {
             Aov::Depth => seen(data::depth(&frame, size, depths)),
             Aov::Normal => seen(data::normal(&frame, size)),
             Aov::Id => seen(data::id(&frame, size, model.leaves().len())?),
-            Aov::Sweeps => seen(data::sweeps(program, raster, |rows| bar.inc(rows))),
+            Aov::Sweeps => seen(data::sweeps(solids, raster, self.tier, |rows| bar.inc(rows))),
         }?;
         finish(&bar);
         let summary = Summary {
@@ -166,6 +190,8 @@ impl Render {
             smoothed,
             near: depths.map(|[near, _]| near),
             far: depths.map(|[_, far]| far),
+            tier: self.tier,
+            settled,
             cast_ms,
             total_ms: 0.0,
             threads: rayon::current_num_threads(),
@@ -196,10 +222,13 @@ fn told(summary: &Summary) -> String {
         (Some(near), Some(far)) => format!("near {near}, far {far}"),
         _ => "nothing is seen".to_owned(),
     };
+    let settled = summary.settled.map_or_else(String::new, |settled| format!("\n{settled}"));
+    let tier = summary.tier.to_possible_value();
+    let tier = tier.as_ref().map_or("", |tier| tier.get_name());
     format!(
         "{}: {} x {} pixels of {} leaves in {:.0} ms\n\
          {} of {pixels} pixels hit, {} smoothed; {depths}\n\
-         casting one ray per pixel: {:.1} ms, {:.1} ns/pixel (threads: {}, level: {})",
+         casting one ray per pixel: {:.1} ms, {:.1} ns/pixel (tier: {tier}, threads: {}, level: {}){settled}",
         summary.file.display(),
         summary.width,
         summary.height,

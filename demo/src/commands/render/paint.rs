@@ -1,5 +1,6 @@
 //! A model in the light of a lamp over the camera's shoulder, with its own colours, and smooth where pixels differ.
 
+use crate::commands::tier::{Alone, Tier};
 use crate::edges::{Row, bytes, grid};
 use crate::frame::{Frame, Met};
 use crate::light::Light;
@@ -8,8 +9,9 @@ use crate::palette::{SAND, to_srgb};
 use core::ops::Range;
 use core::str::FromStr;
 use glam::{Vec3, vec3};
-use gsdf_nostd::{Raster, Ray};
+use gsdf_nostd::{Program, Raster, Ray};
 use gsdf_simd::{Caster, Level, Pixel, RayHits, Rays, Scene};
+use gsdf_trade::Primitive;
 use image::RgbImage;
 use indicatif::ProgressBar;
 use rayon::prelude::*;
@@ -41,7 +43,9 @@ const ROWS: u32 = 64;
 /// Paints pictures of a model.
 pub struct Painter<'m> {
     colours: Vec<Vec3>,
+    solids: Program<'m, Primitive>,
     caster: Caster<'m, 'm, gsdf_nostd::Leaf>,
+    tier: Tier,
     raster: Raster,
     light: Light,
     samples: Samples,
@@ -56,15 +60,25 @@ struct Sight {
 }
 
 impl<'m> Painter<'m> {
-    /// For pictures of a model, as this raster sees it.
+    /// For pictures of a model, as this raster sees it, with its rays cast in a tier; `solids` are the program of its scene.
     #[must_use]
-    pub fn new(model: &Model, scene: &'m Scene<'m, gsdf_nostd::Leaf>, raster: Raster, level: Level, samples: Samples) -> Self {
+    pub fn new(
+        model: &Model,
+        scene: &'m Scene<'m, gsdf_nostd::Leaf>,
+        solids: Program<'m, Primitive>,
+        raster: Raster,
+        level: Level,
+        tier: Tier,
+        samples: Samples,
+    ) -> Self {
         let camera = raster.camera();
         // The camera's own right is on the left in a picture of right-handed axes.
         let toward = -TO_LAMP.x * camera.right() + TO_LAMP.y * camera.up() - TO_LAMP.z * camera.forward();
         Self {
             colours: model.leaves().iter().map(|leaf| leaf.colour.unwrap_or(UNPAINTED)).collect(),
+            solids,
             caster: Caster::at_level(scene, level),
+            tier,
             raster,
             light: Light {
                 toward: toward.normalize(),
@@ -127,8 +141,25 @@ impl<'m> Painter<'m> {
             .flat_map(|[x, y]| grid(self.samples.0).map(move |[right, down]| [*x as f32 + right, *y as f32 + down]))
             .collect();
         let mut sights: Vec<Option<Sight>> = places.into_par_iter().map(|place| self.sight(place, None)).collect();
+        self.meet(&mut sights);
+        let colours = self.shade(&sights);
+        let share = (self.samples.0 * self.samples.0) as usize;
+        // What is brighter than the picture can show must not outshine the rest of its pixel.
+        let mean = |colours: &[Vec3]| colours.iter().map(|colour| colour.clamp(Vec3::ZERO, Vec3::ONE)).sum::<Vec3>() / share as f32;
+        colours.chunks(share).map(mean).collect()
+    }
+
+    /// Finds what some rays meet.
+    fn meet(&self, sights: &mut [Option<Sight>]) {
+        if self.tier != Tier::Robust {
+            sights.par_iter_mut().flatten().for_each_init(
+                || Alone::new(self.solids, self.tier),
+                |alone, sight| sight.met = alone.first(&sight.ray).0.map(|crossing| crossing.hit.into()),
+            );
+            return;
+        }
         let mut rays = Batch::default();
-        for sight in &sights {
+        for sight in &*sights {
             match sight {
                 Some(sight) => rays.push(sight.ray.origin(), sight.ray.direction()),
                 None => rays.push(Vec3::ZERO, Vec3::ZERO),
@@ -139,11 +170,6 @@ impl<'m> Painter<'m> {
                 sight.met = met;
             }
         }
-        let colours = self.shade(&sights);
-        let share = (self.samples.0 * self.samples.0) as usize;
-        // What is brighter than the picture can show must not outshine the rest of its pixel.
-        let mean = |colours: &[Vec3]| colours.iter().map(|colour| colour.clamp(Vec3::ZERO, Vec3::ONE)).sum::<Vec3>() / share as f32;
-        colours.chunks(share).map(mean).collect()
     }
 
     /// The linear colours of what is seen.

@@ -1,0 +1,95 @@
+//! Pictures of which every ray is cast by itself, in any tier.
+
+use crate::commands::tier::{Alone, Certainty, Tier};
+use crate::frame::{Frame, Met};
+use core::fmt;
+use core::iter::Sum;
+use gsdf_nostd::{Hit, Program, Raster, Settled};
+use gsdf_trade::Primitive;
+use rayon::prelude::*;
+use serde::Serialize;
+
+/// How many rays were settled by what.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+pub struct Settlements {
+    /// By single precision.
+    pub single: u64,
+    /// By double precision.
+    pub double: u64,
+    /// By a rule.
+    pub tie: u64,
+}
+
+impl Settlements {
+    fn of(certainty: Certainty) -> Self {
+        let mut one = Self::default();
+        match certainty.settled {
+            Settled::Single => one.single = 1,
+            Settled::Double => one.double = 1,
+            Settled::Tie => one.tie = 1,
+        }
+        one
+    }
+}
+
+impl Sum for Settlements {
+    fn sum<I: Iterator<Item = Self>>(all: I) -> Self {
+        all.fold(Self::default(), |a, b| Self {
+            single: a.single + b.single,
+            double: a.double + b.double,
+            tie: a.tie + b.tie,
+        })
+    }
+}
+
+impl fmt::Display for Settlements {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { single, double, tie } = self;
+        write!(
+            f,
+            "{single} rays settled in single precision, {double} in double precision, {tie} ties"
+        )
+    }
+}
+
+impl From<Hit> for Met {
+    fn from(hit: Hit) -> Self {
+        Self {
+            t: hit.t,
+            normal: hit.normal,
+            leaf: hit.leaf,
+            face: hit.face,
+        }
+    }
+}
+
+/// Casts a ray through the middle of every pixel, and tells how many hit something and, in the certified tier, how they were
+/// settled. Every finished row is told.
+pub fn cast(
+    frame: &mut Frame,
+    program: Program<'_, Primitive>,
+    raster: Raster,
+    tier: Tier,
+    row_done: impl Fn(u64) + Sync,
+) -> (u64, Option<Settlements>) {
+    let of_row = |alone: &mut Alone<'_>, (row, y): (&mut [Option<Met>], u32)| {
+        let (mut hits, mut settled) = (0, Settlements::default());
+        for (pixel, x) in row.iter_mut().zip(0..) {
+            let Ok(ray) = raster.ray(x, y) else { continue };
+            let (crossing, certainty) = alone.first(&ray);
+            *pixel = crossing.map(|crossing| crossing.hit.into());
+            hits += u64::from(crossing.is_some());
+            settled = [settled].into_iter().chain(certainty.map(Settlements::of)).sum();
+        }
+        row_done(1);
+        (hits, settled)
+    };
+    let rows: Vec<(u64, Settlements)> = frame
+        .rows_mut()
+        .zip(0..raster.height())
+        .map_init(|| Alone::new(program, tier), of_row)
+        .collect();
+    let hits = rows.iter().map(|(hits, _)| hits).sum();
+    let settled = rows.into_iter().map(|(_, settled)| settled).sum();
+    (hits, (tier == Tier::Certified).then_some(settled))
+}
