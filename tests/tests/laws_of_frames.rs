@@ -1,26 +1,19 @@
 //! What a ray sees does not depend on the unit of lengths and on where the world stands: to the bit where the numbers allow it,
 //! within the rounding bound elsewhere.
 
-use core::ops::Neg;
-use core::sync::atomic::{AtomicUsize, Ordering};
+use crate::laws_of_rays::{ALLOWED, both_ways, for_leaves};
 use glam::{DMat3, DVec3, Mat3, Vec3};
-use gsdf_nostd::{Departure, HalfSpace, Hit, Lane, Leaf, Line, MAX_LENGTH, Node, Program, Ray, Solid, Span, Toward, Transform, V3};
+use gsdf_nostd::{Departure, Hit, MAX_LENGTH, Node, Program, Ray, Span, Transform};
 use gsdf_tests::conformance::packet::bits;
 use gsdf_tests::corpus;
 use gsdf_tests::laws::Scene;
 use gsdf_tests::poses::{Posed, random_motion};
-use gsdf_tests::sandwich::{Trial, disagreements};
+use gsdf_tests::sandwich::disagreements;
 use gsdf_tests::shape::{KINDS, Shape, log_uniform, unit};
-use gsdf_tests::trees::{Number, Tree, random_solid};
+use gsdf_tests::trees::Tree;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 use rayon::prelude::*;
-
-/// How many rounding errors a crossing may be off its surface.
-const ALLOWED: f64 = 8.0;
-
-/// Rays at each kind of leaf.
-const RAYS: u64 = 4_000;
 
 /// A solid in a frame of another size is, where that is a power of two, the solid in the world: the numbers that meet are
 /// 2^20 times as large or as small, and nothing of them is lost.

@@ -3,27 +3,25 @@
 
 use core::ops::Neg;
 use core::sync::atomic::{AtomicUsize, Ordering};
-use glam::{DMat3, DVec3, Mat3, Vec3};
-use gsdf_nostd::{Departure, HalfSpace, Hit, Lane, Leaf, Line, MAX_LENGTH, Node, Program, Ray, Solid, Span, Toward, Transform, V3};
-use gsdf_tests::conformance::packet::bits;
+use glam::Vec3;
+use gsdf_nostd::{HalfSpace, Hit, Lane, Leaf, Line, Node, Program, Ray, Solid, Span, Toward, V3};
 use gsdf_tests::corpus;
 use gsdf_tests::laws::Scene;
-use gsdf_tests::poses::{Posed, random_motion};
 use gsdf_tests::sandwich::{Trial, disagreements};
-use gsdf_tests::shape::{KINDS, Shape, log_uniform, unit};
+use gsdf_tests::shape::{KINDS, Shape, log_uniform};
 use gsdf_tests::trees::{Number, Tree, random_solid};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 use rayon::prelude::*;
 
 /// How many rounding errors a crossing may be off its surface.
-const ALLOWED: f64 = 8.0;
+pub(crate) const ALLOWED: f64 = 8.0;
 
 /// Rays at each kind of leaf.
 const RAYS: u64 = 4_000;
 
 /// A property on a ray at a solid of each kind, from the classes of the corpus.
-fn for_leaves(law: impl Fn(&mut Pcg64, &Shape, Trial) + Sync) {
+pub(crate) fn for_leaves(law: impl Fn(&mut Pcg64, &Shape, Trial) + Sync) {
     for kind in 0..KINDS.len() {
         (0..RAYS).into_par_iter().for_each(|seed| {
             let mut rng = Pcg64::seed_from_u64(seed * KINDS.len() as u64 + kind as u64);
@@ -98,7 +96,7 @@ const ACROSS: f32 = 16.0;
 
 /// A ray through the middle of things whose numbers are so coarse that its far end is an `f32` point too: the one way and
 /// the other, exactly the same line.
-fn both_ways(rng: &mut Pcg64, coarse: f32) -> [Ray; 2] {
+pub(crate) fn both_ways(rng: &mut Pcg64, coarse: f32) -> [Ray; 2] {
     let mut vector = |most: f32| Vec3::from_array([(); 3].map(|()| (rng.random_range(-most..most) * coarse).round() / coarse));
     let (target, mut direction) = (vector(2.0), vector(1.0));
     if direction == Vec3::ZERO {
