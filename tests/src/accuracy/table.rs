@@ -124,7 +124,7 @@ impl Figure {
     pub fn of(leaf: usize) -> Self {
         match KINDS[leaf] {
             "half-space" | "cuboid" => Self::Counted(3.0),
-            "sphere" => Self::Counted(3.5),
+            "sphere" => Self::Counted(6.0),
             "cylinder" | "capped cylinder" | "capsule" | "rhombus" => Self::Expected(4.5),
             _ if is_curved(leaf) => Self::Expected(20.0),
             _ => Self::Expected(4.0),
@@ -313,15 +313,15 @@ mod tests {
         let expected = Allowed {
             wrong: 4e-3,
             p99: 16.0,
-            most: 230.0,
-            conditioned: 3.5,
+            most: 390.0,
+            conditioned: 6.0,
         };
         assert_eq!(bounds(&FOUND, Arithmetic::Robust), expected);
         let plain = bounds(&FOUND, Arithmetic::Plain);
         assert_eq!((plain.most, plain.conditioned), (33_000.0, 33_000.0));
         let mut worse = FOUND;
-        worse.conditioned.error = 3.6;
-        assert_eq!(bounds(&worse, Arithmetic::Double).conditioned, 15.0);
+        worse.conditioned.error = 6.1;
+        assert_eq!(bounds(&worse, Arithmetic::Double).conditioned, 25.0);
         let none = bounds(
             &Summary {
                 rays: 1_000_000,
@@ -329,7 +329,7 @@ mod tests {
             },
             Arithmetic::Robust,
         );
-        assert_eq!((none.wrong, none.p99, none.most, none.conditioned), (3.1e-5, 4.0, 230.0, 3.5));
+        assert_eq!((none.wrong, none.p99, none.most, none.conditioned), (3.1e-5, 4.0, 390.0, 6.0));
     }
 
     #[test]
