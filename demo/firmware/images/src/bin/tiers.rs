@@ -10,7 +10,7 @@ use gsdf_workload::tiers::{self, Accuracy};
 
 fn tell(item: &Item, accuracy: &Accuracy) {
     println!("wrong {item} {}", accuracy.wrong);
-    // In thousandths: to print a fraction takes code that nothing else needs.
+    // In thousandths: records hold whole numbers.
     println!("ulps {item} {}", (accuracy.ulps * 1000.0 + 0.5) as u64);
     if let Some(rays) = accuracy.doubtful {
         println!("doubtful {item} {rays}");
