@@ -23,3 +23,4 @@ pub mod digest;
 pub mod scenes;
 pub mod shapes;
 pub mod solids;
+pub mod tiers;

@@ -12,6 +12,7 @@ mod measure;
 mod operations;
 mod records;
 mod tables;
+mod tiers;
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -56,7 +57,7 @@ fn run(options: &Options) -> Result<Vec<String>> {
     let measured = measure::measure(&options.root)?;
     let (mut hashes, wrong) = bits::check(&measured.boards, &measured.printed);
     hashes.insert(0, ["board", "image", "rows with the same bits", ""].map(str::to_owned).to_vec());
-    let mut failures = [measured.failures.as_slice(), &wrong].concat();
+    let mut failures = [measured.failures.as_slice(), &wrong, &tiers::disagreements(&measured.rows)].concat();
     let ledger = Ledger {
         origin: origin(&measured),
         rows: measured.rows.clone(),

@@ -7,7 +7,7 @@ use anyhow::{Context as _, Result, bail, ensure};
 use crate::ledger::{Key, Rows};
 
 /// The kinds of records, each the first word of its lines.
-const KINDS: [&str; 3] = ["bits", "cost", "stack"];
+const KINDS: [&str; 6] = ["bits", "cost", "stack", "wrong", "ulps", "doubtful"];
 
 /// The hash of one row of the reference scenes, as one image of one board computed it.
 #[derive(Clone, Debug, PartialEq)]
@@ -65,6 +65,8 @@ fn add(records: &mut Records, board: &str, fields: &[&str]) -> Result<()> {
             ensure!(queries > 0, "there were no queries");
             row(named(item)?, "instructions", per_query(instructions, queries))?;
         }
+        ["wrong" | "doubtful", item, rays] => row(named(item)?, fields[0], count(rays)? as f64)?,
+        ["ulps", item, thousandths] => row(named(item)?, "ulps", per_query(count(thousandths)?, 1000))?,
         ["stack", item, bytes] => row(&format!("stack/{}", named(item)?), "bytes", count(bytes)? as f64)?,
         _ => bail!("a record of this kind does not have {} fields", fields.len()),
     }
@@ -103,13 +105,16 @@ mod tests {
     #[test]
     fn each_kind_is_read() {
         let text = "hello\nbits s1 00000000000000ff ok\nbits s2 0000000000000001 BAD\ncost leaf/sphere/gsdf 3 100\n\
-                    stack spheres 312\n";
+                    stack spheres 312\nwrong tier/s1/fast 2\nulps tier/s1/fast 1250\ndoubtful tier/s1/certified 0\n";
         let records = parse("m", "m.txt", text).expect("these records are well-formed");
         assert_eq!(records.hashes["s1"], Hash { value: 255, ok: true });
         assert_eq!(records.hashes["s2"], Hash { value: 1, ok: false });
         assert_eq!(figure(text, "leaf/sphere/gsdf", "instructions"), 33.3);
         assert_eq!(figure(text, "stack/spheres", "bytes"), 312.0);
-        assert_eq!(records.rows.len(), 2);
+        assert_eq!(figure(text, "tier/s1/fast", "wrong"), 2.0);
+        assert_eq!(figure(text, "tier/s1/fast", "ulps"), 1.3);
+        assert_eq!(figure(text, "tier/s1/certified", "doubtful"), 0.0);
+        assert_eq!(records.rows.len(), 5);
     }
 
     #[test]
@@ -128,6 +133,9 @@ mod tests {
             "stack a",
             "stack a many",
             "stack a 12 ",
+            "wrong a",
+            "doubtful a 1.5",
+            "ulps a 0.5",
         ] {
             let error = parse("m", "m.txt", &format!("chatter\n{line}\n")).expect_err(line);
             assert!(format!("{error:#}").starts_with("m.txt:2: "), "{error:#}");

@@ -5,6 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use crate::guards::MEASURED;
 use crate::ledger::{Key, Ledger, Rows};
 use crate::measure::{BOARDS, BY_SOURCE, ESTIMATED, IMAGES_BY_SOURCE};
+use crate::tiers;
 
 /// What a division or a square root in hardware takes on a Cortex-M4F, beyond the one cycle of an instruction: VDIV.F32
 /// and VSQRT.F32 take 14 cycles. Source: Arm, Cortex-M4 Processor Technical Reference Manual, FPU instruction set.
@@ -39,6 +40,8 @@ pub(crate) fn render(ledger: &Ledger) -> String {
         "How many times the instructions of the closed form it takes.",
         figures.ratios(),
     );
+    add("Tiers", &tiers::costs_note(), tiers::costs(&figures));
+    add("How far off the tiers are", &tiers::accuracy_note(), tiers::accuracy(&figures));
     add(
         "Cycles on a Cortex-M4F: an estimate",
         "Not measured: the instructions, and 13 more for each division and for each square root in hardware, which take 14\n\
@@ -97,10 +100,11 @@ pub(crate) fn align(table: &[Vec<String>]) -> String {
     text
 }
 
-struct Figures<'a>(&'a Rows);
+/// All figures, to be looked up.
+pub(crate) struct Figures<'a>(pub(crate) &'a Rows);
 
-impl Figures<'_> {
-    fn get(&self, board: &str, item: &str, unit: &str) -> Option<f64> {
+impl<'a> Figures<'a> {
+    pub(crate) fn get(&self, board: &str, item: &str, unit: &str) -> Option<f64> {
         self.0
             .get(&Key {
                 board: board.to_owned(),
@@ -111,7 +115,7 @@ impl Figures<'_> {
     }
 
     /// The items of this unit on any board whose names start so.
-    fn items(&self, prefix: &str, unit: &str) -> BTreeSet<&str> {
+    pub(crate) fn items(&self, prefix: &str, unit: &str) -> BTreeSet<&'a str> {
         self.0
             .keys()
             .filter(|key| key.unit == unit && key.item.starts_with(prefix))
@@ -120,8 +124,13 @@ impl Figures<'_> {
     }
 
     fn by_board(&self, prefix: &str) -> Vec<Vec<String>> {
+        self.of_items(prefix, self.items(prefix, "instructions"))
+    }
+
+    /// The instructions of these items, whose names start so, on each board.
+    pub(crate) fn of_items<'i>(&self, prefix: &str, items: impl IntoIterator<Item = &'i str>) -> Vec<Vec<String>> {
         let mut table = vec![head(&BOARDS)];
-        for item in self.items(prefix, "instructions") {
+        for item in items {
             let figures = BOARDS.iter().map(|board| cell(self.get(board, item, "instructions")));
             table.push([item[prefix.len()..].to_owned()].into_iter().chain(figures).collect());
         }
@@ -207,12 +216,13 @@ impl Figures<'_> {
     }
 }
 
-fn head(columns: &[&str]) -> Vec<String> {
+/// The first row of a table, whose first column has no title.
+pub(crate) fn head(columns: &[&str]) -> Vec<String> {
     [""].iter().chain(columns).map(|&title| title.to_owned()).collect()
 }
 
 /// With one decimal where there is one.
-fn cell(figure: Option<f64>) -> String {
+pub(crate) fn cell(figure: Option<f64>) -> String {
     figure.map_or_else(|| "-".to_owned(), |figure| ((figure * 10.0).round() / 10.0).to_string())
 }
 

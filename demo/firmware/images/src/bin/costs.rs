@@ -4,33 +4,9 @@
 
 use gsdf_firmware::balls::{EVERYTHING, SPHERES};
 use gsdf_firmware::board::{self, println};
-use gsdf_firmware::{ask, ask_distance};
+use gsdf_firmware::{FPU, Instructions, ask, ask_distance};
 use gsdf_parts::Fpu;
-use gsdf_workload::costs::{self, Item, Meter};
-
-/// What an arithmetic with the square root of the FPU is called in records, where it has one.
-const FPU: &str = "fpu";
-
-/// The instructions of some queries.
-#[derive(Default)]
-struct Instructions {
-    queries: u32,
-    instructions: u64,
-}
-
-impl Meter for Instructions {
-    fn query<R>(&mut self, query: impl FnOnce() -> R) -> R {
-        let (result, instructions) = board::instructions_of(query);
-        self.queries += 1;
-        self.instructions += instructions;
-        result
-    }
-
-    fn finish(&mut self, item: &Item) {
-        println!("cost {item} {} {}", self.queries, self.instructions);
-        *self = Self::default();
-    }
-}
+use gsdf_workload::costs;
 
 /// The stack of the queries of the images that are named.
 fn measure_stack() {
