@@ -1,11 +1,11 @@
 //! What a ray costs in operations: the same numbers on every machine.
 
 use crate::arena::{Arena, tracer};
-use crate::counted::{Counted, Operations, counting};
 use crate::inputs::{COUNT, Inputs, SEED};
 use crate::leaves::{Visitor, visit_leaves};
 use crate::scenes::Scene;
 use anyhow::Result;
+use gsdf_counted::{Counted, Operations, counting};
 use gsdf_nostd::{Anywhere, March, Ray, Solid, Span, Toward, V3, march};
 
 /// Operations, added up over many queries.

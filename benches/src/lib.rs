@@ -20,7 +20,6 @@ pub mod arena;
 pub mod arguments;
 pub mod attribution;
 pub mod contender;
-pub mod counted;
 pub mod counts;
 pub mod frame;
 pub mod inputs;

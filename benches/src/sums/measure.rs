@@ -1,11 +1,11 @@
 //! What they cost.
 
 use super::made_of::Composed;
-use crate::counted::{Counted, counting};
 use crate::inputs::{Inputs, SEED};
 use crate::leaves::ray_kernel;
 use crate::stats::Estimate;
 use anyhow::{Context, Result};
+use gsdf_counted::{Counted, counting};
 use gsdf_nostd::{Anywhere, Leaf, Line, Program, Real, Solid, Span, Toward, V3, march};
 use std::hint::black_box;
 use std::time::{Duration, Instant};

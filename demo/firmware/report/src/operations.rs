@@ -3,7 +3,7 @@
 //! Counted here and not on a board: the same text in the same arithmetic does the same operations everywhere.
 
 use anyhow::Result;
-use gsdf_benches::counted::{Counted, Operations, counting};
+use gsdf_counted::{Counted, Operations, counting};
 use gsdf_workload::costs::{self, Item, Meter};
 
 use crate::ledger::{Key, Rows};
