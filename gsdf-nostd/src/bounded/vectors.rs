@@ -70,17 +70,16 @@ fn underflow<T: Real>(factors: T) -> T {
 
 /// The discriminant of a chord.
 ///
-/// With the exact `W`, `V`, `B`, `A` and what is off about each, the computed `l = W - (B/A) V` is off by some `δ`, component by
-/// component, from the errors of `W` and `V` and its own roundings, and by some `ν V` from that of `B/A`. Since the exact `l` is
-/// perpendicular to `V`, `l.l` is off by at most `2 |l|.δ + 3 (|δ| + |ν V|)²`, of which `(|δ| + |ν V|)² <= 2 (δ² + ν² A)`.
+/// With the exact `l = W - (B/A) V` the computed one is `l + δ + ν V`: `δ` comes, component by component, from the errors of `W` and
+/// `V` and its own roundings, `ν` from `B/A`. Since `l` is perpendicular to `V`, the square of what was computed, `l'`, is too large
+/// by exactly `2 l'.δ - δ² + ν² A`: what is off along the ray counts by its square alone.
 #[inline(always)]
 pub(super) fn discriminant<T: Real>(chord: &Chord<Bounded<T>>, b: Bounded<T>) -> Bounded<T> {
     let zero = b.value.splat_like(0.0);
     let roundoff = |times: f32| zero.splat_like(times * T::ROUNDOFF);
     let Chord { w, v, a, per_a, c, r2 } = chord;
     let nearest = b.value * per_a.value;
-    let off_nearest =
-        (b.error + nearest.abs() * a.error) * per_a.value + nearest.abs() * per_a.error * a.value + nearest.abs() * roundoff(2.0);
+    let off_nearest = b.error * (per_a.value + per_a.error) + nearest.abs() * (per_a.error * a.value + roundoff(1.0));
     let step = |w: Bounded<T>, v: Bounded<T>| {
         let along = v.value * nearest;
         let l = w.value - along;
@@ -92,8 +91,8 @@ pub(super) fn discriminant<T: Real>(chord: &Chord<Bounded<T>>, b: Bounded<T>) ->
     let off = V3::new(off_x, off_y, off_z);
     let square = l.norm_squared();
     let first = (x.abs() * off_x + y.abs() * off_y) + z.abs() * off_z;
-    let second = off.norm_squared() + off_nearest.squared() * a.value;
-    let off_square = (first + first) + second * zero.splat_like(6.0) + square * roundoff(3.0);
+    let second = off.norm_squared() + off_nearest.squared() * (a.value + a.error);
+    let off_square = (first + first) + second + square * roundoff(3.0);
     let rest = r2.value - square;
     let away = a.value * rest;
     let off_away =

@@ -248,9 +248,9 @@ proptest! {
 
     #[test]
     fn lines_at_odd_angles_agree_too(
-        solid in solid(), origin in [-3.0..3.0_f32, -3.0..3.0_f32, -3.0..3.0_f32], to in coarse_vector(),
+        solid in solid(), origin in [-3.0..3.0_f64, -3.0..3.0_f64, -3.0..3.0_f64], to in coarse_vector(),
     ) {
-        let origin = Vec3::from_array(origin);
+        let origin = Vec3::from_array(origin.map(|coordinate| coordinate as f32));
         let direction = to - origin;
         let line = solid.along(origin, direction);
         check_against_samples(&solid, &line, origin, direction)?;
