@@ -40,7 +40,7 @@ fn least_share(cell: Cell) -> f64 {
         Corpus::Angles => 0.9,
         Corpus::Inside => 0.9,
         // To ten million radii, where `f32` itself is off by half a radius.
-        Corpus::Far => 0.4,
+        Corpus::Far => 0.45,
         Corpus::Tiny => 0.6,
         _ => 0.0,
     }
