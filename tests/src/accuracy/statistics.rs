@@ -109,7 +109,7 @@ impl Statistics {
     }
 
     /// The error that one crossing in a hundred exceeds, rounded up to an eighth of an octave; 0 where crossings are so few
-    /// ([`LEAST_CROSSINGS`]) that it would be that of a single solid.
+    /// that it would be that of a single solid.
     #[must_use]
     pub fn p99(&self) -> f64 {
         let crossings: u64 = self.counts.iter().map(|&count| u64::from(count)).sum();
