@@ -2,7 +2,7 @@
 
 use crate::lanes::{LaneMask, Lanes};
 use crate::packet::{Packet, enough};
-use gsdf_nostd::{Anywhere, Bounded, Certificate, Line, Program, ProgramError, Solid, Span, Toward, V3, certify};
+use gsdf_nostd::{Anywhere, Bounded, Certificate, Program, ProgramError, Solid, Span, certify};
 
 impl<T: Lanes> Packet<T> {
     /// What each ray crosses first, and whether that is certain: the first attempt of [`Program::cast_certified`] for all
@@ -14,13 +14,7 @@ impl<T: Lanes> Packet<T> {
     #[inline(always)]
     pub fn certify<L: Solid>(&self, program: &Program<'_, L>, scratch: &mut [Span<Bounded<T>>]) -> Result<Certificate<T>, ProgramError> {
         let spans = enough(program, scratch)?;
-        let exact = |v: V3<T>| V3::new(Bounded::exact(v.x), Bounded::exact(v.y), Bounded::exact(v.z));
-        let Line { origin, toward } = self.line();
-        let line = Line {
-            origin: exact(*origin),
-            toward: Toward::new(exact(toward.v)),
-        };
-        program.spans_along(&line, Anywhere, spans);
+        program.spans_along(&self.line().bounded(), Anywhere, spans);
         let found = certify(program.nodes(), spans, self.start());
         Ok(Certificate {
             sure: found.sure & self.valid(),

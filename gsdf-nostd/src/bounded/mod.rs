@@ -166,8 +166,13 @@ impl<T: Real> Bounded<T> {
     /// are then a few operations, and the rest is elsewhere.
     #[inline(always)]
     fn are_ordinary(value: T) -> bool {
+        Self::is_ordinary(value).all()
+    }
+
+    #[inline(always)]
+    fn is_ordinary(value: T) -> T::Mask {
         let size = value.abs();
-        (size.splat_like(LEAST_ORDINARY).lt(size) & size.lt(size.splat_like(f32::INFINITY))).all()
+        size.splat_like(LEAST_ORDINARY).lt(size) & size.lt(size.splat_like(f32::INFINITY))
     }
 
     #[inline(always)]

@@ -91,7 +91,8 @@ fn odd_product<T: Real>(a: Bounded<T>, b: Bounded<T>, value: T) -> Bounded<T> {
     }
     let inherited = a.value.abs() * b.error + (b.value.abs() + b.error) * a.error;
     let exact = a.is_exact() & b.is_exact();
-    let rounding = Bounded::half_ulp(value) + zero.splat_like(UNDERFLOW);
+    // Other lanes' numbers are no reason for another bound.
+    let rounding = Bounded::half_ulp(value) + T::select(Bounded::is_ordinary(value), zero, zero.splat_like(UNDERFLOW));
     Bounded::rounded(
         value,
         T::select(exact | nothing, zero, inherited),
@@ -108,7 +109,8 @@ fn odd_quotient<T: Real>(a: Bounded<T>, b: Bounded<T>, value: T) -> Bounded<T> {
     let inherited = (a.error + value.abs() * b.error) / least;
     let inherited = T::select(zero.lt(least), inherited, zero.splat_like(f32::INFINITY));
     let exact = a.is_exact() & b.is_exact();
-    let rounding = Bounded::half_ulp(value) + zero.splat_like(UNDERFLOW);
+    let is_ordinary = Bounded::is_ordinary(value) & zero.lt(least);
+    let rounding = Bounded::half_ulp(value) + T::select(is_ordinary, zero, zero.splat_like(UNDERFLOW));
     Bounded::rounded(
         value,
         T::select(exact, zero, inherited),
