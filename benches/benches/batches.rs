@@ -72,11 +72,7 @@ impl Batch {
 
     fn rays(&self) -> Rays<'_> {
         let [x, y, z, u, v, w] = &self.0;
-        Rays {
-            origin: [x, y, z],
-            direction: [u, v, w],
-            range: None,
-        }
+        Rays::new([x, y, z], [u, v, w])
     }
 }
 
@@ -145,22 +141,19 @@ fn run(arguments: &Arguments) -> Result<()> {
         let mut normal: [Vec<f32>; 3] = core::array::from_fn(|_| vec![0.0; length]);
         let mut hit = vec![false; length];
         let bare = pool.install(|| {
-            measure(rounds, length, || {
-                let hits = RayHits {
-                    distance: &mut distance,
-                    normal: None,
-                    leaf: None,
-                };
-                Ok(caster.cast(&batch.rays(), hits)?)
-            })
+            measure(
+                rounds,
+                length,
+                || Ok(caster.cast(&batch.rays(), RayHits::distances(&mut distance))?),
+            )
         })?;
         let whole = pool.install(|| {
             measure(rounds, length, || {
                 let [x, y, z] = &mut normal;
                 let hits = RayHits {
-                    distance: &mut distance,
                     normal: Some([x, y, z]),
                     leaf: Some(&mut leaf),
+                    ..RayHits::distances(&mut distance)
                 };
                 Ok(caster.cast(&batch.rays(), hits)?)
             })

@@ -164,15 +164,11 @@ fn cast(caster: &Caster<'_, '_, Leaf>, eye: Vec3, directions: &[Vec3]) -> Result
     let mut distance = vec![0.0; directions.len()];
     let [mut x, mut y, mut z] = [distance.clone(), distance.clone(), distance.clone()];
     let mut leaf = vec![0; directions.len()];
-    let rays = Rays {
-        origin: origin.each_ref().map(Vec::as_slice),
-        direction: direction.each_ref().map(Vec::as_slice),
-        range: None,
-    };
+    let rays = Rays::new(origin.each_ref().map(Vec::as_slice), direction.each_ref().map(Vec::as_slice));
     let hits = RayHits {
-        distance: &mut distance,
         normal: Some([&mut x, &mut y, &mut z]),
         leaf: Some(&mut leaf),
+        ..RayHits::distances(&mut distance)
     };
     caster.cast(&rays, hits)?;
     let met = |index: usize| Met {

@@ -1,8 +1,8 @@
 //! A frame buffer of the demo's own: what the ray of every pixel meets, with the face, which a ray that goes on from there wants to know.
 
 use glam::Vec3;
-use gsdf_nostd::{Mask, Surface};
-use gsdf_simd::{Hits, LaneMask, Lanes, MOST_LANES, Pixel, TILE_SIDE, Target, Tile, Wants};
+use gsdf_nostd::Hit;
+use gsdf_simd::{Pixel, TILE_SIDE, Target, Tile, Wants};
 use rayon::prelude::*;
 
 /// What one ray met.
@@ -18,30 +18,15 @@ pub struct Met {
     pub face: u8,
 }
 
-/// What every lane of a packet met; nothing beyond its last lane.
-#[inline(always)]
-#[must_use]
-pub fn met<T: Lanes>(hits: &Hits<T>) -> [Option<Met>; MOST_LANES] {
-    let mut met = [None; MOST_LANES];
-    if !hits.hit.any() {
-        return met;
-    }
-    let bits = hits.hit.to_bits();
-    let Surface { normal, face } = hits.met.surface;
-    let [t, leaf, face, x, y, z] = [hits.t, hits.met.leaf, face, normal.x, normal.y, normal.z].map(T::to_array);
-    let normals = x.as_ref().iter().zip(y.as_ref()).zip(z.as_ref());
-    let lanes = t.as_ref().iter().zip(leaf.as_ref()).zip(face.as_ref()).zip(normals);
-    for ((lane, met), (((t, leaf), face), ((x, y), z))) in met.iter_mut().enumerate().zip(lanes) {
-        if bits >> lane & 1 == 1 {
-            *met = Some(Met {
-                t: *t,
-                normal: Vec3::new(*x, *y, *z),
-                leaf: *leaf as u32,
-                face: *face as u8,
-            });
+impl From<Hit> for Met {
+    fn from(hit: Hit) -> Self {
+        Self {
+            t: hit.t,
+            normal: hit.normal,
+            leaf: hit.leaf,
+            face: hit.face,
         }
     }
-    met
 }
 
 /// The pixels of a picture, row by row from the top.

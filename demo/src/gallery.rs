@@ -90,10 +90,10 @@ impl Gallery {
     /// What the numbers of the table mean, and its head.
     fn header(&self, pool: &ThreadPool) -> String {
         format!(
-            "{size} x {size} pixels, threads: {threads}, level: {level}. Packets of {lanes} f32 rays, every ray against every leaf.\n\
+            "{size} x {size} pixels, threads: {threads}, level: {level}. Packets of {lanes} f32 rays, at the scene as it was prepared.\n\
              ns/pixel: casting one ray per pixel, with normal and leaf but no light, from the first pixel to the last on all threads; the\n\
              least of the repeats that fit into 0.2 s. thread: the same times the threads, what a pixel costs one of them.\n\
-             sweeps: walks over the program per ray, on average and at most. seconds: the whole picture, with light and smooth edges.\n\
+             sweeps: walks over the whole program, on average and at most, of every fourth ray of every fourth row. seconds: the whole picture, with light and smooth edges.\n\
              {:<9} {:>6} {:>9} {:>9} {:>9} {:>7} {:>6} {:>8}  {}",
             "scene",
             "leaves",
@@ -124,8 +124,8 @@ fn row(scene: &Scene, picture: &Picture, seconds: f64, path: Option<&Path>) -> R
         cost.hits,
         cost.nanoseconds(),
         cost.nanoseconds() * cost.threads as f64,
-        cost.mean_sweeps(),
-        cost.most_sweeps,
+        cost.sweeps.mean(),
+        cost.sweeps.most,
         seconds,
         path.unwrap_or(Path::new("")).display()
     );

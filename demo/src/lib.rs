@@ -2,7 +2,8 @@
 //!
 //! - [`scenes`]: what is looked at and from where, as data; nothing in it draws.
 //! - [`render`]: a scene to pixels, with the work its primary rays took counted apart from the light.
-//! - [`frame`] and [`leave`]: packets of rays that arrive at surfaces, and those that go on from there.
+//! - [`frame`]: what the rays of a picture meet. [`batch`]: rays of any kind that are cast together, those that go on from there
+//!   among them.
 //! - [`light`], [`shade`] and [`palette`]: the light and the colours. [`edges`]: where one ray per pixel is not enough.
 //! - [`gallery`], [`sheet`], [`output`] and [`progress`]: the pictures as files, and the table about them.
 //! - [`shapes`]: a picture of each shape there is, all on one sheet and each for its documentation.
@@ -10,13 +11,13 @@
 //! - [`command_line`]: what one can ask for. [`job`]: what is meant by it. [`commands`]: what is done with models.
 //! - [`paper`]: the composition of the paper this library repairs, in the ways it can be read, measured.
 
+pub mod batch;
 pub mod command_line;
 pub mod commands;
 pub mod edges;
 pub mod frame;
 pub mod gallery;
 pub mod job;
-pub mod leave;
 pub mod light;
 pub mod model;
 pub mod output;

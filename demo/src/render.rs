@@ -1,16 +1,16 @@
 //! From a scene to pixels: all primary rays are cast, which is timed; then their hits are lit; then the edges are drawn again, with more rays.
 
+use crate::batch::{Batch, Place};
 use crate::edges::{Row, bytes, grid};
-use crate::frame::{Frame, Met, met};
-use crate::leave::Place;
+use crate::frame::{Frame, Met};
 use crate::light::Light;
 use crate::palette::to_srgb;
 use crate::scenes::Scene;
 use crate::shade::{Sample, Shader};
 use anyhow::{Context, Result};
 use glam::Vec3;
-use gsdf_nostd::{March, Program, Raster, Span};
-use gsdf_simd::{F32x8, Level, MOST_LANES, Packet, Renderer, scratch};
+use gsdf_nostd::{Leaf, March, Program, Raster, Span};
+use gsdf_simd::{Caster, Level, Renderer};
 use image::RgbImage;
 use rayon::prelude::*;
 use std::time::{Duration, Instant};
@@ -33,10 +33,8 @@ pub struct Cost {
     pub pixels: u64,
     /// Those that show something.
     pub hits: u64,
-    /// The sweeps over the program that their rays take.
-    pub sweeps: u64,
-    /// The sweeps of the ray that takes the most.
-    pub most_sweeps: u32,
+    /// The sweeps over the program that some of their rays take.
+    pub sweeps: Sweeps,
     /// How long it took, on all threads.
     pub time: Duration,
     /// How many threads those were.
@@ -49,11 +47,56 @@ impl Cost {
     pub fn nanoseconds(&self) -> f64 {
         self.time.as_secs_f64() * 1e9 / self.pixels.max(1) as f64
     }
+}
+
+/// How many sweeps over a program rays take.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Sweeps {
+    /// How many rays were counted.
+    pub rays: u64,
+    /// What they take together.
+    pub all: u64,
+    /// What the one takes that takes the most.
+    pub most: u32,
+}
+
+impl Sweeps {
+    /// Each of how many pixels of a row, and of how many rows, has its sweeps counted: that is done ray by ray and leaf by
+    /// leaf, since a packet knows only those of its slowest lane.
+    const STEP: u32 = 4;
+
+    /// Those of the rays through every fourth pixel of every fourth row.
+    fn of_some(program: Program<'_>, raster: Raster) -> Self {
+        let rows = (0..raster.height().div_ceil(Self::STEP)).into_par_iter();
+        let spans = || vec![Span::EMPTY; program.leaves()];
+        let of_row = |spans: &mut Vec<Span<f32>>, row: u32| {
+            let columns = (0..raster.width()).step_by(Self::STEP as usize);
+            let marches = columns.filter_map(|x| {
+                let ray = raster.ray(x, Self::STEP * row).ok()?;
+                Some(program.along(ray, spans).ok()?.march())
+            });
+            let counted = |March { sweeps, .. }: March<f32>| Self {
+                rays: 1,
+                all: sweeps.into(),
+                most: sweeps,
+            };
+            marches.map(counted).fold(Self::default(), Self::joined)
+        };
+        rows.map_init(spans, of_row).reduce(Self::default, Self::joined)
+    }
+
+    fn joined(self, other: Self) -> Self {
+        Self {
+            rays: self.rays + other.rays,
+            all: self.all + other.all,
+            most: self.most.max(other.most),
+        }
+    }
 
     /// The sweeps per ray, on average.
     #[must_use]
-    pub fn mean_sweeps(&self) -> f64 {
-        self.sweeps as f64 / self.pixels.max(1) as f64
+    pub fn mean(&self) -> f64 {
+        self.all as f64 / self.rays.max(1) as f64
     }
 }
 
@@ -77,9 +120,12 @@ pub fn render(scene: &Scene, size: u32, level: Level, step_done: impl Fn() + Syn
     let program = scene.program().with_context(|| format!("scene {}", scene.name))?;
     let raster = scene.camera.raster(size, size);
     let mut frame = Frame::new(size, size);
-    let cost = cast(program, raster, level, &mut frame);
+    let prepared = gsdf_simd::Scene::new(program);
+    let cost = cast(&prepared, raster, level, &mut frame);
 
-    let painter = || Painter::new(scene, program, raster);
+    let caster = Caster::at_level(&prepared, level);
+    let side = if program.leaves() < MANY_LEAVES { 4 } else { 2 };
+    let painter = || Painter::new(scene, &caster, raster, side);
     let bytes_of_rows: Vec<_> = (0..size)
         .into_par_iter()
         .map_init(painter, |painter, y| {
@@ -113,16 +159,14 @@ pub fn render(scene: &Scene, size: u32, level: Level, step_done: impl Fn() + Syn
 }
 
 /// Casts the primary rays, again and again while that takes no time, and tells the least it took.
-fn cast(program: Program<'_>, raster: Raster, level: Level, frame: &mut Frame) -> Cost {
-    let prepared = gsdf_simd::Scene::new(program);
-    let mut renderer = Renderer::at_level(&prepared, raster, level);
-    let (sweeps, most_sweeps) = count_sweeps(program, raster);
+fn cast(prepared: &gsdf_simd::Scene<'_, Leaf>, raster: Raster, level: Level, frame: &mut Frame) -> Cost {
+    let mut renderer = Renderer::at_level(prepared, raster, level);
+    let sweeps = Sweeps::of_some(*prepared.program(), raster);
     let begin = Instant::now();
     let mut cost = Cost {
         pixels: u64::from(raster.width()) * u64::from(raster.height()),
         hits: 0,
         sweeps,
-        most_sweeps,
         time: Duration::MAX,
         threads: rayon::current_num_threads(),
     };
@@ -134,44 +178,24 @@ fn cast(program: Program<'_>, raster: Raster, level: Level, frame: &mut Frame) -
     cost
 }
 
-/// All sweeps of all primary rays, and the most of one: ray by ray and untimed, since a packet knows only those of its slowest lane.
-fn count_sweeps(program: Program<'_>, raster: Raster) -> (u64, u32) {
-    (0..raster.height())
-        .into_par_iter()
-        .map_init(
-            || vec![Span::EMPTY; program.leaves()],
-            |spans, y| {
-                let sweeps_of = |x| {
-                    let ray = raster.ray(x, y).ok()?;
-                    let March::<f32> { sweeps, .. } = program.along(ray, spans).ok()?.march();
-                    Some(sweeps)
-                };
-                let counted = (0..raster.width()).filter_map(sweeps_of);
-                counted.fold((0, 0), |(all, most): (u64, u32), sweeps| {
-                    (all + u64::from(sweeps), most.max(sweeps))
-                })
-            },
-        )
-        .reduce(|| (0, 0), |a, b| (a.0 + b.0, a.1.max(b.1)))
-}
-
 /// What one thread needs to colour rows.
-struct Painter<'a> {
-    program: Program<'a>,
+struct Painter<'c> {
     raster: Raster,
-    shader: Shader<'a>,
+    caster: &'c Caster<'c, 'c, Leaf>,
+    shader: Shader<'c>,
     light: Light,
-    spans: Vec<Span<F32x8>>,
+    /// The square root of how many rays go through a pixel on an edge.
+    side: u32,
 }
 
-impl<'a> Painter<'a> {
-    fn new(scene: &Scene, program: Program<'a>, raster: Raster) -> Self {
+impl<'c> Painter<'c> {
+    fn new(scene: &Scene, caster: &'c Caster<'c, 'c, Leaf>, raster: Raster, side: u32) -> Self {
         Self {
-            program,
             raster,
-            shader: Shader::new(program, scene.look),
+            caster,
+            shader: Shader::new(caster, scene.look),
             light: scene.look.light,
-            spans: scratch(program.leaves()),
+            side,
         }
     }
 
@@ -187,29 +211,28 @@ impl<'a> Painter<'a> {
 
     /// The colours of some pixels of row `y`, each the mean of many rays.
     fn smooth(&mut self, pixels: &[usize], y: u32) -> Vec<Vec3> {
-        let side = if self.program.leaves() < MANY_LEAVES { 4 } else { 2 };
-        let share = side * side;
+        let share = self.side * self.side;
         let places: Vec<_> = pixels
             .iter()
             .flat_map(|&x| {
-                grid(side)
+                grid(self.side)
                     .zip(0..)
                     .map(move |([right, down], part)| (x, [x as f32 + right, y as f32 + down], part))
             })
             .collect();
-        let mut samples = Vec::with_capacity(places.len());
-        for chunk in places.chunks(8) {
-            let lanes = |axis: usize| F32x8::new(core::array::from_fn(|lane| chunk[lane.min(chunk.len() - 1)].1[axis]));
-            let packet = Packet::through(&self.raster, lanes(0), lanes(1));
-            // The scratch memory was made for this program.
-            let seen = packet
-                .cast(&self.program, &mut self.spans)
-                .map_or([None; MOST_LANES], |hits| met(&hits));
-            for ((x, place, part), met) in chunk.iter().zip(seen) {
-                let seed = self.seed(*x as u32, y).wrapping_mul(31).wrapping_add(part + 1);
-                samples.push(self.sample(*place, met, seed));
+        let mut rays = Batch::default();
+        for (_, [x, y], _) in &places {
+            match self.raster.ray_through(*x, *y) {
+                Ok(ray) => rays.push(ray.origin(), ray.direction()),
+                Err(_) => rays.push(Vec3::ZERO, Vec3::ZERO),
             }
         }
+        let samples: Vec<_> = (places.iter().zip(rays.cast(self.caster)))
+            .map(|(&(x, place, part), met)| {
+                let seed = self.seed(x as u32, y).wrapping_mul(31).wrapping_add(part + 1);
+                self.sample(place, met, seed)
+            })
+            .collect();
         let colours = self.shader.shade(&samples, share);
         colours
             .chunks(share as usize)
@@ -276,9 +299,9 @@ mod tests {
     fn no_ray_takes_more_sweeps_than_the_theorem_allows() -> Result<()> {
         for scene in [scenes::s1(), scenes::s2(), scenes::s3(), scenes::snowcone(), scenes::hollow()] {
             let cost = cost(&scene, 48)?;
-            let most = cost.most_sweeps;
+            let most = cost.sweeps.most;
             assert!(most as usize <= scene.program()?.max_sweeps(), "{}: {most}", scene.name);
-            assert!((1.0..=f64::from(most)).contains(&cost.mean_sweeps()));
+            assert!((1.0..=f64::from(most)).contains(&cost.sweeps.mean()));
         }
         Ok(())
     }

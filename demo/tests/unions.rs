@@ -83,16 +83,11 @@ fn in_batches(scene: &Scene<'_, gsdf_nostd::Leaf>, raster: Raster, level: Level)
         }
     }
     let [ox, oy, oz, dx, dy, dz] = coordinates.each_ref().map(Vec::as_slice);
-    let rays = Rays {
-        origin: [ox, oy, oz],
-        direction: [dx, dy, dz],
-        range: None,
-    };
+    let rays = Rays::new([ox, oy, oz], [dx, dy, dz]);
     let (mut distance, mut leaf) = (vec![0.0; order.len()], vec![0; order.len()]);
     let hits = RayHits {
-        distance: &mut distance,
-        normal: None,
         leaf: Some(&mut leaf),
+        ..RayHits::distances(&mut distance)
     };
     Caster::at_level(scene, level).cast(&rays, hits)?;
     let mut bits = vec![(0, 0); order.len()];

@@ -112,7 +112,7 @@ mod vectorized;
 #[doc(hidden)]
 pub use batch::RayCaster;
 #[cfg(feature = "std")]
-pub use batch::{Caster, LengthsDiffer, RayHits, Rays};
+pub use batch::{Caster, Leaving, LengthsDiffer, RayHits, Rays};
 pub use certified::certificate_of;
 #[cfg(all(feature = "std", target_arch = "x86_64"))]
 pub use lanes::{Avx2Doubles, Avx2Mask, Avx2WideMask, Avx2x8, Avx512Doubles, Avx512Mask, Avx512WideMask, Avx512x16};

@@ -35,9 +35,11 @@ impl Arrays {
 
     fn rays(&self) -> Rays<'_> {
         Rays {
-            origin: self.origin.each_ref().map(Vec::as_slice),
-            direction: self.direction.each_ref().map(Vec::as_slice),
             range: Some(self.range.each_ref().map(Vec::as_slice)),
+            ..Rays::new(
+                self.origin.each_ref().map(Vec::as_slice),
+                self.direction.each_ref().map(Vec::as_slice),
+            )
         }
     }
 }
@@ -94,9 +96,9 @@ fn check(program: &Program<'_>, asked: &[Asked], what: &str) -> Count {
         let mut leaf = vec![7; asked.len()];
         let [x, y, z] = &mut normal;
         let hits = RayHits {
-            distance: &mut distance,
             normal: Some([x, y, z]),
             leaf: Some(&mut leaf),
+            ..RayHits::distances(&mut distance)
         };
         caster.cast(&arrays.rays(), hits).unwrap();
         let mut any = vec![false; asked.len()];
@@ -194,12 +196,7 @@ fn many_rays_on_several_threads() {
     let cast = |threads: usize| {
         let mut distance = vec![0.0; asked.len()];
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-        let hits = RayHits {
-            distance: &mut distance,
-            normal: None,
-            leaf: None,
-        };
-        pool.install(|| caster.cast(&rays, hits).unwrap());
+        pool.install(|| caster.cast(&rays, RayHits::distances(&mut distance)).unwrap());
         distance
     };
     let alone = cast(1);
@@ -211,29 +208,16 @@ fn many_rays_on_several_threads() {
     }
 }
 
-/// Room for distances alone.
-fn distances(distance: &mut [f32]) -> RayHits<'_> {
-    RayHits {
-        distance,
-        normal: None,
-        leaf: None,
-    }
-}
-
 #[test]
 fn slices_of_different_lengths_are_refused() {
     let scene = Scene::new(scenes::PART.program());
     let caster = Caster::new(&scene);
     let (three, two) = ([1.0; 3], [1.0; 2]);
-    let rays = |last: &'static [f32]| Rays {
-        origin: [&[1.0; 3]; 3],
-        direction: [&[1.0; 3], &[1.0; 3], last],
-        range: None,
-    };
+    let rays = |last: &'static [f32]| Rays::new([&[1.0; 3]; 3], [&[1.0; 3], &[1.0; 3], last]);
     let mut distance = [0.0; 3];
     let refused = Err(LengthsDiffer { expected: 3, found: 2 });
-    assert_eq!(caster.cast(&rays(&[1.0; 2]), distances(&mut distance)), refused);
-    assert_eq!(caster.cast(&rays(&[1.0; 3]), distances(&mut distance[..2])), refused);
+    assert_eq!(caster.cast(&rays(&[1.0; 2]), RayHits::distances(&mut distance)), refused);
+    assert_eq!(caster.cast(&rays(&[1.0; 3]), RayHits::distances(&mut distance[..2])), refused);
     assert_eq!(caster.any(&rays(&[1.0; 3]), &mut [false; 2]), refused);
     assert_eq!(caster.any(&rays(&[1.0; 3]), &mut [false; 3]), Ok(()));
     let message = LengthsDiffer { expected: 3, found: 2 }.to_string();

@@ -4,4 +4,5 @@
 mod batches;
 mod crowds;
 mod images;
+mod leaving;
 mod tiled;

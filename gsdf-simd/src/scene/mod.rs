@@ -56,6 +56,8 @@ pub struct Scene<'a, L> {
     /// How far the parts that have bounds reach, along the longest axis.
     extent: f32,
     divides_by_components: bool,
+    /// By how much more than a ray's origin is off what it meets may be: see [`Reach::off_per_slack`].
+    off_per_slack: f32,
     most: Most,
 }
 
@@ -141,6 +143,7 @@ impl<'a, L: Solid> Scene<'a, L> {
             divides_by_components: nodes
                 .iter()
                 .any(|node| matches!(node, Node::Leaf { solid, .. } if solid.divides_by_components())),
+            off_per_slack: 0.0,
             most: Most::default(),
         };
         let negative = starts.negative(nodes);
@@ -221,6 +224,7 @@ impl<'a, L: Solid> Scene<'a, L> {
         if let Some(place) = self.places.get_mut(factor.leaf) {
             *place = self.leaves.len() as u32;
         }
+        self.off_per_slack = self.off_per_slack.max(Reach::off_per_slack(self.program.pose(*frame)));
         if let Some(border) = Border::of_solid(solid, self.program.pose(*frame)) {
             self.borders.push((self.leaves.len() as u32, border));
         }
@@ -352,6 +356,13 @@ impl<'a, L: Solid> Scene<'a, L> {
                 Err(index) => known.insert(index, (leaf, seen)),
             }
         }
+    }
+
+    /// By how much, at most, a solid is met beside where it is, for each unit by which a ray's origin may be off the surface it
+    /// leaves.
+    #[inline(always)]
+    pub(crate) fn off_per_slack(&self) -> f32 {
+        self.off_per_slack
     }
 
     /// For how much who visits the parts needs room.

@@ -80,10 +80,7 @@ impl Reach {
 
     /// Where the bounds in a frame lie in the world, around the errors of a ray that is taken there.
     fn posed(local: Bounds, pose: &Transform) -> Self {
-        // The columns of the matrix that leads back to the world, from the rows of its inverse.
-        let rows = pose.to_local().map(V3::<f64>::from);
-        let crosses = [rows[1].cross(rows[2]), rows[2].cross(rows[0]), rows[0].cross(rows[1])];
-        let columns = crosses.map(|cross| cross.scaled(1.0 / rows[0].dot(crosses[0])));
+        let (rows, columns) = (pose.to_local().map(V3::<f64>::from), columns(pose));
         let of = |coordinates: [f64; 3]| {
             let [x, y, z] = [
                 columns[0].scaled(coordinates[0]),
@@ -113,6 +110,19 @@ impl Reach {
         }
     }
 
+    /// By how much a solid in a frame is met beside where it is, for each unit by which the origin of a ray may be off a surface
+    /// that it leaves: surfaces as near as that are moved to the origin. In the frame that is as much as the frame shrinks it
+    /// least; it comes back to the world as it stretches it most. Twice as much as that, since near a tip a surface is moved a
+    /// little more.
+    pub(crate) fn off_per_slack(pose: Option<&Transform>) -> f32 {
+        let stretched = pose.map_or(1.0, |pose| {
+            let columns = columns(pose);
+            let reach = magnitudes(columns[0]) + magnitudes(columns[1]) + magnitudes(columns[2]);
+            (greatest(reach) / f64::from(pose.stretch())) as f32
+        });
+        2.0 * stretched
+    }
+
     /// Where the solid that a range of nodes makes can be met: those of its leaves' boxes that bound it.
     pub(crate) fn of_nodes<L: Solid>(program: &Program<'_, L>, nodes: &[Node<L>]) -> Self {
         let mut stack: Vec<Self> = Vec::new();
@@ -139,6 +149,13 @@ impl Reach {
         }
         stack.pop().unwrap_or(Self::EVERYWHERE)
     }
+}
+
+/// The columns of the matrix that leads back to the world, from the rows of its inverse.
+fn columns(pose: &Transform) -> [V3<f64>; 3] {
+    let rows = pose.to_local().map(V3::<f64>::from);
+    let crosses = [rows[1].cross(rows[2]), rows[2].cross(rows[0]), rows[0].cross(rows[1])];
+    crosses.map(|cross| cross.scaled(1.0 / rows[0].dot(crosses[0])))
 }
 
 fn magnitudes(v: V3<f64>) -> V3<f64> {

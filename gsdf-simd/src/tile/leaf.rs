@@ -6,7 +6,7 @@ use super::rays::{MOST_PACKETS, Rays};
 use super::state::Met;
 use crate::lanes::Lanes;
 use crate::scene::View;
-use gsdf_nostd::{Solid, Span, Surface, V3};
+use gsdf_nostd::{Footing, Line, OnSurface, Solid, Span, Surface, Transform, V3};
 
 /// What becomes of the spans of a leaf.
 #[derive(Debug)]
@@ -78,6 +78,14 @@ pub(crate) fn spans<T: Lanes, L: Solid>(
     let (local, scales) = rays.local();
     let lines = if pose.is_some() { local } else { rays.lines() };
     let starts = rays.starts();
+    if let Some(leaving) = rays.leaving() {
+        let mut span = leaving_span(token, solid, view.scene.number(place), &lines[0], pose, &leaving);
+        if pose.is_some() {
+            (span.enter, span.exit) = (span.enter * scales[0], span.exit * scales[0]);
+        }
+        used.take(0, 0, span, starts[0]);
+        return;
+    }
     let now;
     let seen = match view.seen_before(place) {
         None => {
@@ -111,6 +119,40 @@ pub(crate) fn spans<T: Lanes, L: Solid>(
     );
 }
 
+/// The span of a leaf along rays that start on surfaces. Rays of pictures do not: what they never ask for stays out of their way.
+#[inline(never)]
+fn leaving_span<T: Lanes, L: Solid>(
+    token: T::Token,
+    solid: &L,
+    number: u32,
+    line: &Line<T>,
+    pose: Option<&Transform>,
+    leaving: &OnSurface<T>,
+) -> Span<T> {
+    T::vectorize(
+        token,
+        #[inline(always)]
+        || leaving.span(number, solid, line, pose),
+    )
+}
+
+/// The surface of a leaf where rays that start on surfaces cross it.
+#[inline(never)]
+fn leaving_surface<T: Lanes, L: Solid>(
+    token: T::Token,
+    solid: &L,
+    number: u32,
+    (line, t): (&Line<T>, T),
+    pose: Option<&Transform>,
+    leaving: &OnSurface<T>,
+) -> Surface<T> {
+    T::vectorize(
+        token,
+        #[inline(always)]
+        || leaving.surface(number, solid, line, pose, t),
+    )
+}
+
 /// The surface of the leaf of a number where the rays of a packet cross it, with its normals outward from the program.
 #[inline(always)]
 pub(crate) fn surface<'v, T: Lanes, L: Solid>(
@@ -140,12 +182,17 @@ pub(crate) fn surface<'v, T: Lanes, L: Solid>(
         Some(_) => (&rays.local().0[packet], t / rays.local().1[packet]),
         None => (&rays.lines()[packet], t),
     };
-    let seen = asked.seen_before.or(asked.seen_now.as_ref());
-    let own = T::vectorize(
-        token,
-        #[inline(always)]
-        || solid.surface_on(seen, line, t),
-    );
+    let own = match rays.leaving() {
+        Some(leaving) => leaving_surface(token, solid, number, (line, t), pose, &leaving),
+        None => {
+            let seen = asked.seen_before.or(asked.seen_now.as_ref());
+            T::vectorize(
+                token,
+                #[inline(always)]
+                || solid.surface_on(seen, line, t),
+            )
+        }
+    };
     let outward = match pose {
         Some(pose) => pose.normal_to_world(own.normal),
         None => own.normal,

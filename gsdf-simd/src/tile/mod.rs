@@ -10,7 +10,7 @@ mod single;
 mod state;
 
 pub use pixels::{Pixel, TILE_PIXELS, TILE_SIDE, Tile};
-pub(crate) use single::{Found, cast_packet, is_together};
+pub(crate) use single::{Found, Query, cast_packet, is_together};
 pub(crate) use state::Workspace;
 
 use crate::lanes::Lanes;

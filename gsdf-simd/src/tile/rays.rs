@@ -4,7 +4,7 @@ use super::pixels::{BLOCK_SIDE, TILE_PIXELS, TILE_SIDE, Tile};
 use crate::lanes::Lanes;
 use crate::packet::{Packet, earliest_on_line, scaled};
 use crate::scene::{Picture, View};
-use gsdf_nostd::{Line, LocalLine, Raster, Solid, Toward, Transform, V3};
+use gsdf_nostd::{Line, LocalLine, OnSurface, Raster, Solid, Toward, Transform, V3};
 
 /// The most packets that a tile is made of: those of eight rays.
 pub(crate) const MOST_PACKETS: usize = 32;
@@ -58,6 +58,8 @@ pub(crate) struct Rays<T: Lanes> {
     scales: [T; MOST_PACKETS],
     /// Where the rays start.
     starts: [T; MOST_PACKETS],
+    /// What they leave, if they start on surfaces; then there is one packet.
+    leaving: Option<OnSurface<T>>,
     /// The packets that there are, and those that are aimed.
     present: u32,
     aimed: u32,
@@ -92,6 +94,7 @@ impl<T: Lanes> Rays<T> {
             lines: [line; MOST_PACKETS],
             scales: [one; MOST_PACKETS],
             starts: [one; MOST_PACKETS],
+            leaving: None,
             present: 0,
             aimed: 0,
             corner: [0, 0],
@@ -121,10 +124,11 @@ impl<T: Lanes> Rays<T> {
         (self.corner, self.present, self.aimed, self.posed) = (corner, every_packet::<T>(), 0, 0);
     }
 
-    /// Goes on to one packet of any rays.
+    /// Goes on to one packet of any rays, which may leave surfaces.
     #[inline(always)]
-    pub(crate) fn begin_with(&mut self, line: &Line<T>, scale: T, start: T) {
+    pub(crate) fn begin_with(&mut self, line: &Line<T>, scale: T, start: T, leaving: Option<OnSurface<T>>) {
         (self.present, self.aimed, self.posed) = (1, 1, 0);
+        self.leaving = leaving;
         (self.lines[0], self.scales[0], self.starts[0]) = (*line, scale, start);
     }
 
@@ -227,6 +231,12 @@ impl<T: Lanes> Rays<T> {
     #[inline(always)]
     pub(crate) fn local(&self) -> (&[Line<T>; MOST_PACKETS], &[T; MOST_PACKETS]) {
         (&self.local, &self.local_scales)
+    }
+
+    /// What the rays leave, if they start on surfaces; then there is one packet.
+    #[inline(always)]
+    pub(crate) fn leaving(&self) -> Option<OnSurface<T>> {
+        self.leaving
     }
 
     /// Where the rays of each packet start.

@@ -7,8 +7,45 @@ use super::{AnyHit, visit};
 use crate::lanes::{LaneMask, Lanes, MOST_LANES};
 use crate::packet::Packet;
 use crate::scene::{FANOUT, Group, Meets, Met, OF_DISTANCE, View};
+use crate::target::Wants;
 use glam::Vec3;
-use gsdf_nostd::{Line, Mask, Solid, V3};
+use gsdf_nostd::{Line, Mask, OnSurface, Solid, Surface, V3};
+
+/// One packet of any rays, and what is asked of them.
+#[derive(Clone, Copy)]
+pub(crate) struct Query<T: Lanes> {
+    /// The rays.
+    pub(crate) packet: Packet<T>,
+    /// What they leave, if they start on surfaces.
+    pub(crate) leaving: Option<OnSurface<T>>,
+    /// Whether any crossing within their ranges will do instead of the first.
+    pub(crate) any: bool,
+    /// What is wanted of the hits, beside where they are and of which leaves.
+    pub(crate) wants: Wants,
+    /// Whether all rays are the same one.
+    pub(crate) alone: bool,
+}
+
+impl<T: Lanes> Query<T> {
+    /// The same asked of the first ray alone, which is in every lane then.
+    #[inline(always)]
+    pub(crate) fn of_first(&self) -> Self {
+        let first = |lanes: T| lanes.splat_like(first_of(lanes));
+        Self {
+            packet: self.packet.alone(),
+            leaving: self.leaving.map(
+                #[inline(always)]
+                |OnSurface { leaf, face, slack }| OnSurface {
+                    leaf: first(leaf),
+                    face: first(face),
+                    slack: first(slack),
+                },
+            ),
+            alone: true,
+            ..*self
+        }
+    }
+}
 
 /// What the rays of a packet hit.
 #[derive(Clone, Copy, Debug)]
@@ -17,8 +54,8 @@ pub(crate) struct Found<T: Lanes> {
     pub(crate) t: T,
     /// The numbers of the leaves, infinite where they hit nothing.
     pub(crate) leaf: T,
-    /// The unit normals, zero where they hit nothing or none are wanted.
-    pub(crate) normal: V3<T>,
+    /// The unit normals and the faces, zero where the rays hit nothing or neither is wanted.
+    pub(crate) met: Surface<T>,
 }
 
 /// Whether the rays of a packet go about the same way from about the same place, in a scene of this extent: only then do they
@@ -49,28 +86,30 @@ fn first_of<T: Lanes>(lanes: T) -> f32 {
 }
 
 /// Casts the rays of a packet: each at the first crossing within its range or, where `any` will do, at some. They are taken
-/// through trees together; or `alone`, if they are all the same one.
+/// through trees together; or alone, if they are all the same one.
 #[inline(always)]
-#[allow(clippy::too_many_arguments, reason = "what a cast is made of, passed through")]
 pub(crate) fn cast_packet<T: Lanes, L: Solid>(
     token: T::Token,
     view: &View<'_, '_, L>,
-    packet: &Packet<T>,
-    any: bool,
-    normals: bool,
-    alone: bool,
+    query: &Query<T>,
     work: &mut Workspace<T, L>,
 ) -> Found<T> {
+    let Query { packet, wants, .. } = query;
     let (line, scale, start) = packet.into_parts();
     let (end, valid) = (packet.end(), packet.valid());
     let nothing = T::splat(token, f32::INFINITY);
-    work.rays.begin_with(&line, scale, start);
+    work.rays.begin_with(&line, scale, start, query.leaving);
     work.met.clear();
     // What begins beyond the end of a range is as good as not there.
     work.met.replace(0, end / scale, nothing);
-    let rays = Aimed::new(line, scale, alone);
-    let started = T::select(valid, start * scale, T::splat(token, 0.0));
-    let any = any.then_some(AnyHit {
+    let zero = T::splat(token, 0.0);
+    let off = match query.leaving {
+        Some(OnSurface { slack, .. }) => T::select(valid, slack * T::splat(token, view.scene.off_per_slack()), zero),
+        None => zero,
+    };
+    let rays = Aimed::new(line, scale, off, query.alone);
+    let started = T::select(valid, start * scale, zero);
+    let any = query.any.then_some(AnyHit {
         end: end / scale,
         others: !valid,
         latest_start: started.greatest(),
@@ -80,17 +119,19 @@ pub(crate) fn cast_packet<T: Lanes, L: Solid>(
     let along = t * scale;
     let hit = along.lt(end) & along.lt(nothing) & leaf.lt(nothing);
     let leaf = T::select(hit, leaf, nothing);
-    let zero = T::splat(token, 0.0);
-    let mut normal = V3::new(zero, zero, zero);
-    if normals && hit.any() {
+    let mut met = Surface {
+        normal: V3::new(zero, zero, zero),
+        face: zero,
+    };
+    if (wants.normals | wants.faces) && hit.any() {
         let mut numbers = [0; MOST_LANES];
         leaf.store_numbers(&mut numbers);
-        normal = surface(token, view, &mut Asked::none(), 0, &numbers, hit, work).normal;
+        met = surface(token, view, &mut Asked::none(), 0, &numbers, hit, work);
     }
     Found {
         t: T::select(hit, along, nothing),
         leaf,
-        normal,
+        met,
     }
 }
 
@@ -100,29 +141,32 @@ struct Aimed<T: Lanes> {
     scale: T,
     /// How far from the middle of the world they start.
     reach: f32,
+    /// By how much what they meet may be off because of where they start.
+    off: T,
     /// Whether they are all the same one.
     alone: bool,
 }
 
 impl<T: Lanes> Aimed<T> {
     #[inline(always)]
-    fn new(line: Line<T>, scale: T, alone: bool) -> Self {
+    fn new(line: Line<T>, scale: T, off: T, alone: bool) -> Self {
         let V3 { x, y, z } = line.origin;
         Self {
             line,
             scale,
             reach: (x.abs() + y.abs() + z.abs()).greatest(),
+            off,
             alone,
         }
     }
 
-    /// Where each ray is within a box, or one ray within each, widened by a share of how far it is and how large: from where
-    /// on, infinite where it is nowhere.
+    /// Where each ray is within a box, or one ray within each, widened by a share of how far it is and how large, and by what
+    /// its surface may be off: from where on, infinite where it is nowhere.
     #[inline(always)]
     fn enters(&self, center: V3<T>, half: V3<T>) -> T {
         let like = center.x;
         let distance = like.splat_like(self.reach) + (center.x.abs() + center.y.abs() + center.z.abs()) + (half.x + half.y + half.z);
-        let margin = distance * like.splat_like(OF_DISTANCE);
+        let margin = distance * like.splat_like(OF_DISTANCE) + self.off;
         let (origin, per) = (self.line.origin, self.line.toward.per_component);
         let (mut enter, mut exit) = (like.splat_like(0.0), like.splat_like(f32::INFINITY));
         for (center, half, origin, per) in [

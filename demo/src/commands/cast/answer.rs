@@ -1,11 +1,13 @@
 //! What rays cross, as lines of text.
 
 use super::lines::Piece;
+use crate::batch::Batch;
 use crate::commands::tier;
 use crate::commands::tier::{Alone, Certainty, Distance, Tier};
+use crate::frame::Met;
 use glam::Vec3;
 use gsdf_nostd::{Leaf, Program, Ray, Span};
-use gsdf_simd::{Caster, Level, Pixel, RayHits, Rays, Scene};
+use gsdf_simd::{Caster, Level, Scene};
 use gsdf_trade::Primitive;
 use serde::Serialize;
 
@@ -136,36 +138,20 @@ impl<'m> Answers<'m> {
 
     /// The first crossing of each ray, in the robust tier, of which nothing is certified.
     fn together(&self, rays: &[Ray]) -> Vec<(Option<Crossing>, Option<Certainty>)> {
-        let axis = |of: fn(&Ray) -> Vec3, axis: usize| rays.iter().map(|ray| of(ray)[axis]).collect::<Vec<_>>();
-        let origin: [_; 3] = core::array::from_fn(|number| axis(Ray::origin, number));
-        let direction: [_; 3] = core::array::from_fn(|number| axis(Ray::direction, number));
-        let (mut distance, mut leaf) = (vec![0.0; rays.len()], vec![0; rays.len()]);
-        let [mut x, mut y, mut z] = core::array::from_fn(|_| vec![0.0; rays.len()]);
-        let batch = Rays {
-            origin: origin.each_ref().map(Vec::as_slice),
-            direction: direction.each_ref().map(Vec::as_slice),
-            range: None,
-        };
-        let hits = RayHits {
-            distance: &mut distance,
-            normal: Some([&mut x, &mut y, &mut z]),
-            leaf: Some(&mut leaf),
-        };
-        // All slices are equally long.
-        let _ = self.caster.cast(&batch, hits);
-        let crossing = |(number, ray): (usize, &Ray)| {
-            let crossing = (leaf[number] != Pixel::NO_LEAF).then(|| {
-                let normal = Vec3::new(x[number], y[number], z[number]);
-                Crossing {
-                    distance: Distance::Single(distance[number]),
-                    normal: normal.to_array(),
-                    leaf: leaf[number],
-                    entering: self.is_entering(ray, normal),
-                }
+        let mut batch = Batch::default();
+        for ray in rays {
+            batch.push(ray.origin(), ray.direction());
+        }
+        let crossing = |(ray, met): (&Ray, Option<Met>)| {
+            let crossing = met.map(|met| Crossing {
+                distance: Distance::Single(met.t),
+                normal: met.normal.to_array(),
+                leaf: met.leaf,
+                entering: self.is_entering(ray, met.normal),
             });
             (crossing, None)
         };
-        rays.iter().enumerate().map(crossing).collect()
+        rays.iter().zip(batch.cast(&self.caster)).map(crossing).collect()
     }
 
     /// Whether a ray enters the model where it first crosses the surface, which has this normal.

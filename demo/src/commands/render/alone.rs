@@ -4,7 +4,7 @@ use crate::commands::tier::{Alone, Certainty, Tier};
 use crate::frame::{Frame, Met};
 use core::fmt;
 use core::iter::Sum;
-use gsdf_nostd::{Hit, Program, Raster, Settled};
+use gsdf_nostd::{Program, Raster, Settled};
 use gsdf_trade::Primitive;
 use rayon::prelude::*;
 use serde::Serialize;
@@ -49,17 +49,6 @@ impl fmt::Display for Settlements {
             f,
             "{single} rays settled in single precision, {double} in double precision, {tie} ties"
         )
-    }
-}
-
-impl From<Hit> for Met {
-    fn from(hit: Hit) -> Self {
-        Self {
-            t: hit.t,
-            normal: hit.normal,
-            leaf: hit.leaf,
-            face: hit.face,
-        }
     }
 }
 

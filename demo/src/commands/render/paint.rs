@@ -1,5 +1,6 @@
 //! A model in the light of a lamp over the camera's shoulder, with its own colours, and smooth where pixels differ.
 
+use crate::batch::{Batch, Place};
 use crate::commands::tier::{Alone, Tier};
 use crate::edges::{Row, bytes, grid};
 use crate::frame::{Frame, Met};
@@ -10,7 +11,7 @@ use core::ops::Range;
 use core::str::FromStr;
 use glam::{Vec3, vec3};
 use gsdf_nostd::{Program, Raster, Ray};
-use gsdf_simd::{Caster, Level, Pixel, RayHits, Rays, Scene};
+use gsdf_simd::{Caster, Level, Scene};
 use gsdf_trade::Primitive;
 use image::RgbImage;
 use indicatif::ProgressBar;
@@ -174,18 +175,18 @@ impl<'m> Painter<'m> {
 
     /// The linear colours of what is seen.
     fn shade(&self, sights: &[Option<Sight>]) -> Vec<Vec3> {
-        let lit: Vec<Option<[Vec3; 2]>> = sights
+        let lit: Vec<Option<(Place, Vec3)>> = sights
             .par_iter()
             .map(|sight| sight.as_ref().and_then(|sight| self.lit(sight)))
             .collect();
         let mut rays = Batch::default();
-        for [from, _] in lit.iter().flatten() {
-            rays.push(*from, self.light.toward);
+        for (place, _) in lit.iter().flatten() {
+            rays.leave(place, self.light.toward);
         }
         let mut shaded = rays.any(&self.caster).into_iter();
-        let colour = |(sight, lit): (&Option<Sight>, &Option<[Vec3; 2]>)| {
+        let colour = |(sight, lit): (&Option<Sight>, &Option<(Place, Vec3)>)| {
             let from_lamp = match lit {
-                Some([_, brings]) if shaded.next() == Some(false) => *brings,
+                Some((_, brings)) if shaded.next() == Some(false) => *brings,
                 _ => Vec3::ZERO,
             };
             let Some(sight) = sight else { return self.light.behind(0.5) };
@@ -197,16 +198,12 @@ impl<'m> Painter<'m> {
         sights.iter().zip(&lit).map(colour).collect()
     }
 
-    /// From where a surface sees the lamp, and what that brings if nothing is in between; `None` where it faces away.
-    fn lit(&self, sight: &Sight) -> Option<[Vec3; 2]> {
-        /// How far over the surface, as a part of the numbers that it was computed from: some hundred rounding errors.
-        const OVER: f32 = 1e-5;
+    /// The place that sees the lamp, and what that brings if nothing is in between; `None` where it faces away.
+    fn lit(&self, sight: &Sight) -> Option<(Place, Vec3)> {
         let met = sight.met?;
         let (way, view) = (self.light.toward, sight.ray.direction().normalize());
         let brings = self.light.from_lamp(self.colour(&met), 1.0, met.normal, way, view)?;
-        let point = sight.ray.at(met.t);
-        let size = point.abs().max_element() + sight.ray.origin().distance(point);
-        Some([point + OVER * size * met.normal, brings])
+        Some((Place::on(&sight.ray, met), brings))
     }
 
     fn colour(&self, met: &Met) -> Vec3 {
@@ -216,62 +213,5 @@ impl<'m> Painter<'m> {
     /// What comes from all around: the sky is where z leads.
     fn ambient(&self, normal: Vec3) -> Vec3 {
         self.light.ambient(vec3(normal.x, normal.z, -normal.y))
-    }
-}
-
-/// Rays in arrays.
-#[derive(Default)]
-struct Batch {
-    origin: [Vec<f32>; 3],
-    direction: [Vec<f32>; 3],
-}
-
-impl Batch {
-    fn push(&mut self, origin: Vec3, direction: Vec3) {
-        for axis in 0..3 {
-            self.origin[axis].push(origin[axis]);
-            self.direction[axis].push(direction[axis]);
-        }
-    }
-
-    fn rays(&self) -> Rays<'_> {
-        Rays {
-            origin: self.origin.each_ref().map(Vec::as_slice),
-            direction: self.direction.each_ref().map(Vec::as_slice),
-            range: None,
-        }
-    }
-
-    /// Whether each of them meets something.
-    fn any(&self, caster: &Caster<'_, '_, gsdf_nostd::Leaf>) -> Vec<bool> {
-        let mut hits = vec![false; self.rays().len()];
-        // All slices are equally long.
-        let _ = caster.any(&self.rays(), &mut hits);
-        hits
-    }
-
-    /// What each of them meets first.
-    fn cast(&self, caster: &Caster<'_, '_, gsdf_nostd::Leaf>) -> Vec<Option<Met>> {
-        let count = self.rays().len();
-        let mut distance = vec![0.0; count];
-        let mut leaf = vec![0; count];
-        let [mut x, mut y, mut z] = core::array::from_fn(|_| vec![0.0; count]);
-        let hits = RayHits {
-            distance: &mut distance,
-            normal: Some([&mut x, &mut y, &mut z]),
-            leaf: Some(&mut leaf),
-        };
-        // All slices are equally long.
-        let _ = caster.cast(&self.rays(), hits);
-        let met = |number: usize| {
-            (leaf[number] != Pixel::NO_LEAF).then(|| Met {
-                t: distance[number],
-                normal: vec3(x[number], y[number], z[number]),
-                leaf: leaf[number],
-                // Nothing goes on from there.
-                face: 0,
-            })
-        };
-        (0..count).map(met).collect()
     }
 }
