@@ -178,7 +178,7 @@ fn scenes_of_many_parts() {
                 check(&program, &onward, scene.name)
             });
             let count = counts.reduce(Count::default, Count::joined);
-            assert!(count.hits > 100 && count.misses > 50, "{}: {count:?}", scene.name);
+            assert!(count.hits > 50 && count.misses > 200, "{}: {count:?}", scene.name);
         }
     }
 }
