@@ -70,10 +70,18 @@ impl Frame {
 }
 
 /// Some rows of a [`Frame`].
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub struct FrameRows<'f> {
     width: usize,
     pixels: &'f mut [Option<Met>],
+}
+
+impl FrameRows<'_> {
+    /// The pixels in a row, and the rows.
+    #[must_use]
+    pub fn size(&self) -> [usize; 2] {
+        [self.width, self.pixels.len() / self.width.max(1)]
+    }
 }
 
 impl Target for FrameRows<'_> {

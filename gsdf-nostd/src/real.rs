@@ -71,6 +71,13 @@ pub trait Real: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Se
     /// The arithmetic of one lane: `f32` for `f32` and its packets, `f64` for `f64`.
     type Scalar: Real<Scalar = Self::Scalar>;
 
+    /// Does work in a function of its own that is compiled for the same instructions as whatever asks for it, where these are
+    /// not those of the whole program; just does it elsewhere.
+    #[inline(always)]
+    fn apart<R>(self, work: impl FnOnce() -> R) -> R {
+        work()
+    }
+
     /// `value` in every lane; exact, since every arithmetic here contains the `f32` numbers.
     #[must_use]
     fn splat_like(self, value: f32) -> Self;

@@ -49,26 +49,16 @@ impl<T: Real> Toward<T> {
     /// The same with bounds on the errors of what was computed from `v`, which is exact.
     #[inline(always)]
     pub(crate) fn bounded(&self) -> Toward<Bounded<T>> {
-        let off_by = |value: T, roundoffs: f32| Bounded {
-            value,
-            error: value.abs() * value.splat_like(roundoffs * T::ROUNDOFF),
-        };
-        let reciprocal = |speed: T, per_speed: T| {
-            let infinite = per_speed.abs().eq(per_speed.splat_like(f32::INFINITY));
-            let known = off_by(per_speed, 1.0);
-            let exact = Bounded::exact(per_speed);
-            Bounded {
-                value: per_speed,
-                // Of a speed that was taken for zero nothing is known.
-                error: T::select(infinite & speed.eq(speed.splat_like(0.0)), exact.error, known.error),
-            }
-        };
         let (v, per) = (self.v, self.per_component);
         Toward {
             v: V3::new(Bounded::exact(v.x), Bounded::exact(v.y), Bounded::exact(v.z)),
-            vv: off_by(self.vv, 3.0),
-            per_vv: off_by(self.per_vv, 5.0),
-            per_component: V3::new(reciprocal(v.x, per.x), reciprocal(v.y, per.y), reciprocal(v.z, per.z)),
+            vv: rounded(self.vv, 3.0),
+            per_vv: rounded(self.per_vv, 5.0),
+            per_component: V3::new(
+                bounded_reciprocal(v.x, per.x),
+                bounded_reciprocal(v.y, per.y),
+                bounded_reciprocal(v.z, per.z),
+            ),
         }
     }
 
@@ -94,6 +84,28 @@ pub fn reciprocal_speed<T: Real>(speed: T) -> T {
     let parallel = speed.abs().lt(speed.splat_like(PARALLEL_SPEED));
     let zero = speed.splat_like(0.0);
     (speed.splat_like(1.0) / T::select(parallel, zero, speed)).unknown_where(parallel & !speed.eq(zero))
+}
+
+/// A number that is off by so many roundoffs at the most.
+#[inline(always)]
+fn rounded<T: Real>(value: T, roundoffs: f32) -> Bounded<T> {
+    Bounded {
+        value,
+        error: value.abs() * value.splat_like(roundoffs * T::ROUNDOFF),
+    }
+}
+
+/// The reciprocal of a speed that is exact.
+#[inline(always)]
+fn bounded_reciprocal<T: Real>(speed: T, per_speed: T) -> Bounded<T> {
+    let zero = speed.splat_like(0.0);
+    let infinite = per_speed.abs().eq(zero.splat_like(f32::INFINITY));
+    let known = rounded(per_speed, 1.0);
+    Bounded {
+        value: per_speed,
+        // Of a speed that was taken for zero nothing is known.
+        error: T::select(infinite & speed.eq(zero), zero, known.error),
+    }
 }
 
 #[cfg(test)]

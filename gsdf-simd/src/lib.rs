@@ -132,6 +132,6 @@ pub use scene::{Scene, Visible};
 pub use target::{Planes, Records, Target, Tiles, TilesMut, Wants};
 pub use tier::{Double, Fast, Robust, Tier};
 #[cfg(feature = "std")]
-pub use tile::{Pixel, TILE_PIXELS, TILE_SIDE, Tile};
+pub use tile::{Certificates, Pixel, TILE_PIXELS, TILE_SIDE, Tile};
 #[cfg(feature = "std")]
 pub use vectorized::Vectorized;

@@ -5,7 +5,7 @@ use crate::level::{Level, Work};
 use crate::prefetch::Ahead;
 use crate::scene::{Most, Scene, View};
 use crate::target::{Target, Wants};
-use crate::tile::{TILE_SIDE, Tile, Workspace, cast};
+use crate::tile::{Certificates, Certifier, TILE_SIDE, Tile, Workspace, cast};
 use crate::vectorized::Vectorized;
 use core::iter::Sum;
 use core::marker::PhantomData;
@@ -26,6 +26,7 @@ pub struct Renderer<'s, 'a, L: Solid> {
     level: Level,
     /// What the threads work in, as long as none does.
     idle: Mutex<Vec<RowRenderer<L>>>,
+    make: fn(Level) -> RowRenderer<L>,
 }
 
 /// What a picture took.
@@ -67,12 +68,34 @@ where
     /// The same at another level; the pixels are the same.
     #[must_use]
     pub fn at_level(scene: &'s Scene<'a, L>, raster: Raster, level: Level) -> Self {
+        Self::made_by(L::row_renderer, scene, raster, level)
+    }
+
+    /// A renderer of pictures whose pixels are certified, at the [best level](Level::best) of this machine: beside what other
+    /// renderers find, [`Certificates`].
+    ///
+    /// Of each pixel it finds what [`Program::cast_certified`](gsdf_nostd::Program::cast_certified) does, with one difference:
+    /// what is left out cannot make a ray uncertain. Where single precision is certain, the leaf and the normal are those of
+    /// other renderers and the distance is rounded from `f64`.
+    #[must_use]
+    pub fn certified(scene: &'s Scene<'a, L>, raster: Raster) -> Self {
+        Self::certified_at_level(scene, raster, Level::best())
+    }
+
+    /// The same at another level; the pixels and their certificates are the same.
+    #[must_use]
+    pub fn certified_at_level(scene: &'s Scene<'a, L>, raster: Raster, level: Level) -> Self {
+        Self::made_by(L::row_certifier, scene, raster, level)
+    }
+
+    fn made_by(make: fn(Level) -> RowRenderer<L>, scene: &'s Scene<'a, L>, raster: Raster, level: Level) -> Self {
         let mut view = View::of_any_rays(scene);
         view.look(raster);
         Self {
             view,
             raster,
             level,
+            make,
             idle: Mutex::new(Vec::new()),
         }
     }
@@ -96,7 +119,7 @@ where
         let workers = rayon::current_num_threads().min(rows);
         let idle = self.idle.get_mut().unwrap_or_else(PoisonError::into_inner);
         while idle.len() < workers {
-            let mut worker = L::row_renderer(self.level);
+            let mut worker = (self.make)(self.level);
             worker.0.make_room(self.view.scene.most());
             idle.push(worker);
         }
@@ -122,7 +145,7 @@ where
         let idle = || self.idle.lock().unwrap_or_else(PoisonError::into_inner);
         // The last one that was given back is the one whose memory is still in a cache.
         let worker = idle().pop();
-        let mut worker = worker.unwrap_or_else(|| L::row_renderer(self.level));
+        let mut worker = worker.unwrap_or_else(|| (self.make)(self.level));
         let effort = worker.0.render(&self.view, &self.raster, row, target.wants(), target);
         idle().push(worker);
         effort
@@ -138,6 +161,12 @@ impl<L: Solid + Send + Sync + 'static> RowRenderer<L> {
     #[must_use]
     pub fn new(level: Level) -> Self {
         level.run(MakeRowRenderer(PhantomData))
+    }
+
+    /// One for a level that certifies what it renders.
+    #[must_use]
+    pub fn certifying(level: Level) -> Self {
+        level.run(MakeRowCertifier(PhantomData))
     }
 }
 
@@ -161,45 +190,121 @@ impl<L: Solid + Send + Sync + 'static> Work for MakeRowRenderer<L> {
             token,
             work: Workspace::<T, L>::new(token),
             tile: Box::new(Tile::NOTHING),
+            finish: AsCast,
         }))
     }
 }
 
-struct RowOf<T: Lanes, L> {
+/// Makes a [`RowRenderer`] that certifies, for the lanes of a level.
+struct MakeRowCertifier<L>(PhantomData<L>);
+
+impl<L: Solid + Send + Sync + 'static> Work for MakeRowCertifier<L> {
+    type Output = RowRenderer<L>;
+
+    fn run<T: Lanes>(self, token: T::Token) -> RowRenderer<L> {
+        RowRenderer(Box::new(RowOf {
+            token,
+            work: Workspace::<T, L>::new(token),
+            tile: Box::new(Tile::NOTHING),
+            finish: Certifier::<L>::new(),
+        }))
+    }
+}
+
+/// What is done with a tile that was cast.
+trait Finish<T: Lanes, L: Solid>: Send {
+    /// Does it to the tile with this left upper pixel, of whose pixels so many show something; tells how many do then.
+    #[allow(clippy::too_many_arguments, reason = "what a tile is made of, passed through")]
+    fn finish(
+        &mut self,
+        token: T::Token,
+        view: &View<'_, '_, L>,
+        corner: [u32; 2],
+        wants: Wants,
+        work: &mut Workspace<T, L>,
+        tile: &mut Tile,
+        hits: u32,
+    ) -> u32;
+
+    /// The certificates of the tile, if it has any.
+    fn certificates(&self) -> Option<&Certificates>;
+}
+
+/// Nothing: tiles stay as they are cast.
+struct AsCast;
+
+impl<T: Lanes, L: Solid> Finish<T, L> for AsCast {
+    #[inline(always)]
+    fn finish(&mut self, _: T::Token, _: &View<'_, '_, L>, _: [u32; 2], _: Wants, _: &mut Workspace<T, L>, _: &mut Tile, hits: u32) -> u32 {
+        hits
+    }
+
+    #[inline(always)]
+    fn certificates(&self) -> Option<&Certificates> {
+        None
+    }
+}
+
+impl<T: Lanes, L: Solid + Send> Finish<T, L> for Certifier<L> {
+    #[inline(always)]
+    fn finish(
+        &mut self,
+        token: T::Token,
+        view: &View<'_, '_, L>,
+        corner: [u32; 2],
+        wants: Wants,
+        work: &mut Workspace<T, L>,
+        tile: &mut Tile,
+        _: u32,
+    ) -> u32 {
+        self.certify(token, view, corner, wants, work, tile)
+    }
+
+    #[inline(always)]
+    fn certificates(&self) -> Option<&Certificates> {
+        Some(&self.certificates)
+    }
+}
+
+struct RowOf<T: Lanes, L, F> {
     token: T::Token,
     work: Workspace<T, L>,
     /// For targets that do not lay out their pixels as tiles.
     tile: Box<Tile>,
+    finish: F,
 }
 
-impl<T: Lanes, L: Solid + Send + Sync> RenderRow<L> for RowOf<T, L> {
+impl<T: Lanes, L: Solid + Send + Sync, F: Finish<T, L>> RenderRow<L> for RowOf<T, L, F> {
     fn make_room(&mut self, most: Most) {
         self.work.make_room(most);
     }
 
     fn render(&mut self, view: &View<'_, '_, L>, raster: &Raster, row: usize, wants: Wants, target: &mut dyn PutTiles) -> Effort {
-        let Self { token, work, tile } = self;
-        let token = *token;
+        let token = self.token;
         T::vectorize(
             token,
             #[inline(always)]
-            || render_row(token, view, raster, row, wants, work, tile, target),
+            || render_row(self, view, raster, row, wants, target),
         )
     }
 }
 
 #[inline(always)]
-#[allow(clippy::too_many_arguments, reason = "what a worker is made of, apart")]
-fn render_row<T: Lanes, L: Solid>(
-    token: T::Token,
+fn render_row<T: Lanes, L: Solid, F: Finish<T, L>>(
+    worker: &mut RowOf<T, L, F>,
     view: &View<'_, '_, L>,
     raster: &Raster,
     row: usize,
     wants: Wants,
-    work: &mut Workspace<T, L>,
-    own: &mut Tile,
     target: &mut dyn PutTiles,
 ) -> Effort {
+    let RowOf {
+        token,
+        work,
+        tile: own,
+        finish,
+    } = worker;
+    let token = *token;
     let (width, height) = (raster.width(), raster.height());
     let y = (row * TILE_SIDE) as u32;
     let side = TILE_SIDE as u32;
@@ -211,14 +316,18 @@ fn render_row<T: Lanes, L: Solid>(
         let next = target.place(x + side).map(Ahead::of);
         let (place, is_own) = match target.place(x) {
             Some(place) => (place, false),
-            None => (&mut *own, true),
+            None => (&mut **own, true),
         };
-        let mut hits = cast(token, view, [x, y], wants, work, place, next);
+        let hits = cast(token, view, [x, y], wants, work, place, next);
+        let mut hits = finish.finish(token, view, [x, y], wants, work, place, hits);
         if width - x < side || height - y < side {
             hits = place.hits(width - x, height - y);
         }
         if is_own {
             target.put(x, own);
+        }
+        if let Some(certificates) = finish.certificates() {
+            target.certify(x, certificates);
         }
         effort.hits += u64::from(hits);
         x += side;
@@ -233,6 +342,8 @@ trait PutTiles {
     fn place(&mut self, x: u32) -> Option<&mut Tile>;
     /// Takes the tile from this column on.
     fn put(&mut self, x: u32, tile: &Tile);
+    /// Takes the certificates of the tile from this column on.
+    fn certify(&mut self, x: u32, certificates: &Certificates);
 }
 
 impl<C: Target> PutTiles for C {
@@ -242,5 +353,9 @@ impl<C: Target> PutTiles for C {
 
     fn put(&mut self, x: u32, tile: &Tile) {
         Target::put(self, x, 0, tile);
+    }
+
+    fn certify(&mut self, x: u32, certificates: &Certificates) {
+        Target::certify(self, x, 0, certificates);
     }
 }

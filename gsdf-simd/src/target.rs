@@ -1,6 +1,6 @@
 //! Where the pixels of a picture go: tiles as they are found, records, or planes.
 
-use crate::tile::{Pixel, TILE_SIDE, Tile};
+use crate::tile::{Certificates, Pixel, TILE_SIDE, Tile};
 
 /// Takes the tiles of a picture.
 ///
@@ -21,6 +21,9 @@ pub trait Target: Send + Sized {
     /// Takes the tile whose left upper pixel is in column `x` and row `y`, counted from its own first row; both are
     /// multiples of 16. A tile may reach beyond the right or the lower edge.
     fn put(&mut self, x: u32, y: u32, tile: &Tile);
+
+    /// Takes the certificates of that tile, after the tile itself, from a renderer that [certifies](crate::Renderer::certified).
+    fn certify(&mut self, _x: u32, _y: u32, _certificates: &Certificates) {}
 }
 
 /// What a target wants to know of each pixel beside its distance and its leaf. What it does not want is not computed.

@@ -24,6 +24,10 @@ pub trait Vectorized: Solid<Seen<f32>: Send + Sync> + Send + Sync + 'static {
     #[doc(hidden)]
     fn row_renderer(level: Level) -> RowRenderer<Self>;
 
+    /// The same for rows that are certified.
+    #[doc(hidden)]
+    fn row_certifier(level: Level) -> RowRenderer<Self>;
+
     /// What casts batches of rays at a level.
     #[doc(hidden)]
     fn ray_caster(level: Level) -> RayCaster<Self>;
@@ -39,6 +43,10 @@ macro_rules! vectorized {
                 $crate::RowRenderer::new(level)
             }
 
+            fn row_certifier(level: $crate::Level) -> $crate::RowRenderer<Self> {
+                $crate::RowRenderer::certifying(level)
+            }
+
             fn ray_caster(level: $crate::Level) -> $crate::RayCaster<Self> {
                 $crate::RayCaster::new(level)
             }
@@ -49,6 +57,10 @@ macro_rules! vectorized {
 impl Vectorized for Leaf {
     fn row_renderer(level: Level) -> RowRenderer<Self> {
         RowRenderer::new(level)
+    }
+
+    fn row_certifier(level: Level) -> RowRenderer<Self> {
+        RowRenderer::certifying(level)
     }
 
     fn ray_caster(level: Level) -> RayCaster<Self> {

@@ -152,6 +152,7 @@ impl<T: Real> Bounded<T> {
 
     /// A value that was computed from operands which are off by `inherited`, with what rounding added to it. What is infinite,
     /// or no number, is exactly so where the operands were, and not where a finite number has overflowed.
+    #[inline(always)]
     fn rounded(value: T, inherited: T, rounding: T, endless: T::Mask) -> Self {
         let zero = value.splat_like(0.0);
         let finite = Self::is_finite(value);
@@ -200,6 +201,24 @@ impl<T: Real> Bounded<T> {
         }
     }
 
+    /// The number where a mask is true, and exactly another one elsewhere.
+    #[inline(always)]
+    fn where_else(self, mask: T::Mask, other: f32) -> Self {
+        Self {
+            value: T::select(mask, self.value, self.value.splat_like(other)),
+            error: T::select(mask, self.error, self.error.splat_like(0.0)),
+        }
+    }
+
+    /// The number with another bound where a mask is true.
+    #[inline(always)]
+    fn reaching(self, mask: T::Mask, error: T) -> Self {
+        Self {
+            value: self.value,
+            error: T::select(mask, error, self.error),
+        }
+    }
+
     /// How the two compare, where the outcome for the values is `yes`.
     #[inline(always)]
     fn judged(self, other: Self, yes: T::Mask) -> Judged<T::Mask> {
@@ -220,6 +239,10 @@ impl<T: Real> Real for Bounded<T> {
     const INLINED: bool = T::INLINED;
     type Scalar = Bounded<T::Scalar>;
 
+    #[inline(always)]
+    fn apart<R>(self, work: impl FnOnce() -> R) -> R {
+        self.value.apart(work)
+    }
     #[inline(always)]
     fn splat_like(self, value: f32) -> Self {
         Self::exact(self.value.splat_like(value))
@@ -347,21 +370,15 @@ impl<T: Real> Real for Bounded<T> {
     fn ends_where(inhabited: Self::Mask, enter: Self, exit: Self) -> (Self, Self) {
         let value = enter.value;
         if inhabited.sure.all() {
-            let ends = |end: Self, empty: f32| Self {
-                value: T::select(inhabited.yes, end.value, value.splat_like(empty)),
-                error: T::select(inhabited.yes, end.error, value.splat_like(0.0)),
-            };
-            return (ends(enter, f32::INFINITY), ends(exit, f32::NEG_INFINITY));
+            return (
+                enter.where_else(inhabited.yes, f32::INFINITY),
+                exit.where_else(inhabited.yes, f32::NEG_INFINITY),
+            );
         }
-        let apart = (exit.value - value).abs();
-        let doubtful = |end: Self, empty: f32| Self {
-            value: T::select(inhabited.yes | !inhabited.sure, end.value, value.splat_like(empty)),
-            error: T::select(
-                inhabited.sure,
-                T::select(inhabited.yes, end.error, value.splat_like(0.0)),
-                apart + (enter.error + exit.error),
-            ),
-        };
-        (doubtful(enter, f32::INFINITY), doubtful(exit, f32::NEG_INFINITY))
+        let may_be = inhabited.yes | !inhabited.sure;
+        let reach = (exit.value - value).abs() + (enter.error + exit.error);
+        let (enter, exit) = (enter.where_else(may_be, f32::INFINITY), exit.where_else(may_be, f32::NEG_INFINITY));
+        let doubtful = may_be & !inhabited.sure;
+        (enter.reaching(doubtful, reach), exit.reaching(doubtful, reach))
     }
 }

@@ -73,62 +73,82 @@ impl<T: Real> Div for Bounded<T> {
 #[cold]
 #[inline(never)]
 fn endless_sum<T: Real>(a: Bounded<T>, b: Bounded<T>, value: T, error: T) -> Bounded<T> {
-    let zero = value.splat_like(0.0);
-    let endless = !(Bounded::is_finite(a.value) & Bounded::is_finite(b.value));
-    let sum = Bounded::rounded(value, a.error + b.error, zero, endless);
-    Bounded {
-        value,
-        error: T::select(Bounded::is_finite(value), error, sum.error),
-    }
+    value.apart(
+        #[inline(always)]
+        || {
+            let zero = value.splat_like(0.0);
+            let endless = !(Bounded::is_finite(a.value) & Bounded::is_finite(b.value));
+            let sum = Bounded::rounded(value, a.error + b.error, zero, endless);
+            Bounded {
+                value,
+                error: T::select(Bounded::is_finite(value), error, sum.error),
+            }
+        },
+    )
 }
 
 #[inline(never)]
 fn odd_product<T: Real>(a: Bounded<T>, b: Bounded<T>, value: T) -> Bounded<T> {
-    let zero = value.splat_like(0.0);
-    let nothing = a.is_nothing() | b.is_nothing();
-    if nothing.all() && Bounded::is_finite(value).all() {
-        return Bounded::exact(value);
-    }
-    let inherited = a.value.abs() * b.error + (b.value.abs() + b.error) * a.error;
-    let exact = a.is_exact() & b.is_exact();
-    // Other lanes' numbers are no reason for another bound.
-    let rounding = Bounded::half_ulp(value) + T::select(Bounded::is_ordinary(value), zero, zero.splat_like(UNDERFLOW));
-    Bounded::rounded(
-        value,
-        T::select(exact | nothing, zero, inherited),
-        T::select(nothing, zero, rounding),
-        !(Bounded::is_finite(a.value) & Bounded::is_finite(b.value)),
+    value.apart(
+        #[inline(always)]
+        || {
+            let zero = value.splat_like(0.0);
+            let nothing = a.is_nothing() | b.is_nothing();
+            if nothing.all() && Bounded::is_finite(value).all() {
+                return Bounded::exact(value);
+            }
+            let inherited = a.value.abs() * b.error + (b.value.abs() + b.error) * a.error;
+            let exact = a.is_exact() & b.is_exact();
+            // Other lanes' numbers are no reason for another bound.
+            let rounding = Bounded::half_ulp(value) + T::select(Bounded::is_ordinary(value), zero, zero.splat_like(UNDERFLOW));
+            Bounded::rounded(
+                value,
+                T::select(exact | nothing, zero, inherited),
+                T::select(nothing, zero, rounding),
+                !(Bounded::is_finite(a.value) & Bounded::is_finite(b.value)),
+            )
+        },
     )
 }
 
 #[cold]
 #[inline(never)]
 fn odd_quotient<T: Real>(a: Bounded<T>, b: Bounded<T>, value: T) -> Bounded<T> {
-    let zero = value.splat_like(0.0);
-    let least = b.value.abs() - b.reach();
-    let inherited = (a.error + value.abs() * b.error) / least;
-    let inherited = T::select(zero.lt(least), inherited, zero.splat_like(f32::INFINITY));
-    let exact = a.is_exact() & b.is_exact();
-    let is_ordinary = Bounded::is_ordinary(value) & zero.lt(least);
-    let rounding = Bounded::half_ulp(value) + T::select(is_ordinary, zero, zero.splat_like(UNDERFLOW));
-    Bounded::rounded(
-        value,
-        T::select(exact, zero, inherited),
-        T::select(a.is_nothing(), zero, rounding),
-        !Bounded::is_finite(a.value) | b.is_nothing(),
+    value.apart(
+        #[inline(always)]
+        || {
+            let zero = value.splat_like(0.0);
+            let least = b.value.abs() - b.reach();
+            let inherited = (a.error + value.abs() * b.error) / least;
+            let inherited = T::select(zero.lt(least), inherited, zero.splat_like(f32::INFINITY));
+            let exact = a.is_exact() & b.is_exact();
+            let is_ordinary = Bounded::is_ordinary(value) & zero.lt(least);
+            let rounding = Bounded::half_ulp(value) + T::select(is_ordinary, zero, zero.splat_like(UNDERFLOW));
+            Bounded::rounded(
+                value,
+                T::select(exact, zero, inherited),
+                T::select(a.is_nothing(), zero, rounding),
+                !Bounded::is_finite(a.value) | b.is_nothing(),
+            )
+        },
     )
 }
 
 #[cold]
 #[inline(never)]
 pub(super) fn odd_root<T: Real>(square: Bounded<T>) -> Bounded<T> {
-    let zero = square.value.splat_like(0.0);
-    let negative = square.value.lt(zero);
-    let most = (square.value + square.reach()).max(zero).sqrt();
-    let value = T::select(negative & zero.lt(most), zero, square.value.sqrt());
-    let inherited = T::select(square.reach().lt(square.value), square.error / value, value + most);
-    let inherited = T::select(square.is_exact(), zero, inherited);
-    Bounded::rounded(value, inherited, Bounded::half_ulp(value), !Bounded::is_finite(square.value))
+    square.value.apart(
+        #[inline(always)]
+        || {
+            let zero = square.value.splat_like(0.0);
+            let negative = square.value.lt(zero);
+            let most = (square.value + square.reach()).max(zero).sqrt();
+            let value = T::select(negative & zero.lt(most), zero, square.value.sqrt());
+            let inherited = T::select(square.reach().lt(square.value), square.error / value, value + most);
+            let inherited = T::select(square.is_exact(), zero, inherited);
+            Bounded::rounded(value, inherited, Bounded::half_ulp(value), !Bounded::is_finite(square.value))
+        },
+    )
 }
 
 impl<T: Real> Neg for Bounded<T> {

@@ -68,6 +68,15 @@ fn underflow<T: Real>(factors: T) -> T {
     T::select(factors.eq(zero), zero, zero.splat_like(UNDERFLOW))
 }
 
+/// A component of `l = W - (B/A) V`, and by how much it may be off, but for what `B/A` is.
+#[inline(always)]
+fn away<T: Real>(w: Bounded<T>, v: Bounded<T>, nearest: T) -> (T, T) {
+    let along = v.value * nearest;
+    let l = w.value - along;
+    let rounding = (along.abs() + l.abs()) * nearest.splat_like(T::ROUNDOFF);
+    (l, w.error + nearest.abs() * v.error + rounding)
+}
+
 /// The discriminant of a chord.
 ///
 /// With the exact `l = W - (B/A) V` the computed one is `l + δ + ν V`: `δ` comes, component by component, from the errors of `W` and
@@ -76,31 +85,24 @@ fn underflow<T: Real>(factors: T) -> T {
 #[inline(always)]
 pub(super) fn discriminant<T: Real>(chord: &Chord<Bounded<T>>, b: Bounded<T>) -> Bounded<T> {
     let zero = b.value.splat_like(0.0);
-    let roundoff = |times: f32| zero.splat_like(times * T::ROUNDOFF);
+    let (roundoff, three_roundoffs) = (zero.splat_like(T::ROUNDOFF), zero.splat_like(3.0 * T::ROUNDOFF));
     let Chord { w, v, a, per_a, c, r2 } = chord;
     let nearest = b.value * per_a.value;
-    let off_nearest = b.error * (per_a.value + per_a.error) + nearest.abs() * (per_a.error * a.value + roundoff(1.0));
-    let step = |w: Bounded<T>, v: Bounded<T>| {
-        let along = v.value * nearest;
-        let l = w.value - along;
-        let off = w.error + nearest.abs() * v.error + (along.abs() + l.abs()) * roundoff(1.0);
-        (l, off)
-    };
-    let ((x, off_x), (y, off_y), (z, off_z)) = (step(w.x, v.x), step(w.y, v.y), step(w.z, v.z));
+    let off_nearest = b.error * (per_a.value + per_a.error) + nearest.abs() * (per_a.error * a.value + roundoff);
+    let ((x, off_x), (y, off_y), (z, off_z)) = (away(w.x, v.x, nearest), away(w.y, v.y, nearest), away(w.z, v.z, nearest));
     let l = V3::new(x, y, z);
     let off = V3::new(off_x, off_y, off_z);
     let square = l.norm_squared();
     let first = (x.abs() * off_x + y.abs() * off_y) + z.abs() * off_z;
     let second = off.norm_squared() + off_nearest.squared() * (a.value + a.error);
-    let off_square = (first + first) + second + square * roundoff(3.0);
+    let off_square = (first + first) + second + square * three_roundoffs;
     let rest = r2.value - square;
     let away = a.value * rest;
-    let off_away =
-        (a.value + a.error) * (off_square + r2.error + rest.abs() * roundoff(1.0)) + rest.abs() * a.error + away.abs() * roundoff(1.0);
+    let off_away = (a.value + a.error) * (off_square + r2.error + rest.abs() * roundoff) + rest.abs() * a.error + away.abs() * roundoff;
     // On the surface `C` is zero.
     let on = c.value.eq(zero);
     let level = b.value.squared();
-    let off_level = (b.value.abs() + b.value.abs() + b.error) * b.error + (a.value + a.error) * c.error + level * roundoff(1.0);
+    let off_level = (b.value.abs() + b.value.abs() + b.error) * b.error + (a.value + a.error) * c.error + level * roundoff;
     Bounded {
         value: T::select(on, level, away),
         error: T::select(on, off_level, off_away) + zero.splat_like(UNDERFLOW),

@@ -119,6 +119,12 @@ impl<'a, L> Program<'a, L> {
         self.nodes
     }
 
+    /// The poses of its frames, that of frame 1 first.
+    #[must_use]
+    pub const fn poses(&self) -> &'a [Transform] {
+        self.poses
+    }
+
     /// The number of leaves, and of spans its scratch memory must hold.
     #[must_use]
     pub const fn leaves(&self) -> usize {

@@ -83,6 +83,10 @@ macro_rules! lanes_in_a_register {
             type Scalar = f32;
 
             #[inline(always)]
+            fn apart<R>(self, work: impl FnOnce() -> R) -> R {
+                super::apart(self.0.simd, work)
+            }
+            #[inline(always)]
             fn splat_like(self, value: f32) -> Self {
                 Self::splat(self.0.simd, value)
             }

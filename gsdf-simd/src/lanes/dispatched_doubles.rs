@@ -78,6 +78,10 @@ macro_rules! doubles_in_two_registers {
             type Scalar = f64;
 
             #[inline(always)]
+            fn apart<R>(self, work: impl FnOnce() -> R) -> R {
+                super::apart(self.0.simd, work)
+            }
+            #[inline(always)]
             fn splat_like(self, value: f32) -> Self {
                 self.lift_like(f64::from(value))
             }

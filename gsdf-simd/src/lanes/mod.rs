@@ -91,6 +91,15 @@ pub trait LaneMask: Mask {
     fn to_bits(self) -> u32;
 }
 
+/// Does work in a function of its own, compiled for some instructions.
+///
+/// Not only must it not become part of what calls it: a function that is called from one place alone always would.
+#[cfg(all(feature = "std", target_arch = "x86_64"))]
+#[inline(never)]
+fn apart<S: fearless_simd::Simd, R>(simd: S, work: impl FnOnce() -> R) -> R {
+    simd.vectorize(work)
+}
+
 /// The first numbers of a slice, and zeros after its end.
 #[inline(always)]
 fn padded<const N: usize>(numbers: &[f32]) -> [f32; N] {

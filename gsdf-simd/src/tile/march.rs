@@ -65,7 +65,7 @@ pub(crate) fn cast<T: Lanes, L: Solid, M: Meets<T>>(
 }
 
 /// Reduces a part to the leaves that are met.
-fn remainder<T: Lanes, L: Solid>(scene: &Scene<'_, L>, outline: &Outline, first: u32, work: &mut Workspace<T, L>) -> Known {
+pub(super) fn remainder<T: Lanes, L: Solid>(scene: &Scene<'_, L>, outline: &Outline, first: u32, work: &mut Workspace<T, L>) -> Known {
     let mut remainder = Remainder {
         nodes: &mut work.nodes,
         leaves: &mut work.places,

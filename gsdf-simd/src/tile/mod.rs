@@ -1,5 +1,6 @@
 //! One tile of an image: its rays are cast at the parts of the scene that their beam meets, from near to far.
 
+mod certified;
 mod leaf;
 mod march;
 mod pixels;
@@ -9,6 +10,8 @@ mod shade;
 mod single;
 mod state;
 
+pub use certified::Certificates;
+pub(crate) use certified::Certifier;
 pub use pixels::{Pixel, TILE_PIXELS, TILE_SIDE, Tile};
 pub(crate) use single::{Found, Query, cast_packet, is_together};
 pub(crate) use state::Workspace;
@@ -17,7 +20,7 @@ use crate::lanes::Lanes;
 use crate::prefetch::Ahead;
 use crate::scene::{Beam, FANOUT, Form, Grid, Meets, Picture, View};
 use crate::target::Wants;
-use gsdf_nostd::Solid;
+use gsdf_nostd::{Raster, Solid};
 
 /// Casts the rays through the pixels of the tile whose left upper pixel is (`x`, `y`), and tells how many hit something; the
 /// `next` one to be written, if it is known, is fetched meanwhile.
@@ -34,10 +37,16 @@ pub(crate) fn cast<T: Lanes, L: Solid>(
     work.rays.begin([x, y]);
     work.met.clear();
     if let Some(Picture { raster, .. }) = &view.picture {
-        let beam = Beam::new(raster, x, y, Grid::SIDE, Grid::new(rays::height::<T>() as u32));
+        let beam = beam_of::<T>(raster, [x, y]);
         visit(token, view, &beam, None, work);
     }
     shade::shade(token, view, wants, work, tile, next)
+}
+
+/// The beam of a tile's rays.
+#[inline(always)]
+fn beam_of<T: Lanes>(raster: &Raster, [x, y]: [u32; 2]) -> Beam {
+    Beam::new(raster, x, y, Grid::SIDE, Grid::new(rays::height::<T>() as u32))
 }
 
 /// What it takes to be content with any hit of the rays of a single packet.

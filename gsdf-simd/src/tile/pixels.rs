@@ -81,6 +81,17 @@ impl Tile {
         hits
     }
 
+    /// The column and the row of the pixel in a place of the planes.
+    #[must_use]
+    pub(crate) const fn place_of(index: usize) -> [usize; 2] {
+        let (block, within) = (index / (BLOCK_SIDE * BLOCK_SIDE), index % (BLOCK_SIDE * BLOCK_SIDE));
+        let across = TILE_SIDE / BLOCK_SIDE;
+        [
+            block % across * BLOCK_SIDE + within % BLOCK_SIDE,
+            block / across * BLOCK_SIDE + within / BLOCK_SIDE,
+        ]
+    }
+
     /// Where in each plane the pixel in column `x` and row `y` of the tile is; both are taken modulo 16.
     #[inline(always)]
     #[must_use]
@@ -126,6 +137,7 @@ mod tests {
             for x in 0..TILE_SIDE {
                 let index = Tile::index(x, y);
                 assert!(!core::mem::replace(&mut taken[index], true));
+                assert_eq!(Tile::place_of(index), [x, y]);
                 // Four neighbours in a row of a block are one after the other.
                 assert_eq!(index % 4, x % 4);
             }

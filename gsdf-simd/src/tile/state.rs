@@ -132,6 +132,16 @@ impl<T: Lanes> Met<T> {
         farthest.greatest()
     }
 
+    /// The depth beyond which no ray of a packet looks for anything.
+    #[inline(always)]
+    pub(crate) fn farthest_of(&self, rays: &Rays<T>, packet: usize) -> f32 {
+        if self.touched >> packet & 1 == 0 {
+            return f32::INFINITY;
+        }
+        let (_, scale, _) = rays.packet(packet);
+        (self.t[packet % MOST_PACKETS] * scale).greatest()
+    }
+
     /// Whether every ray of a packet has met something nearer than a limit, but for those in some lanes.
     #[inline(always)]
     pub(crate) fn all_nearer(&self, packet: usize, limit: T, others: T::Mask) -> bool {

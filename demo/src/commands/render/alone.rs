@@ -1,9 +1,9 @@
 //! Pictures of which every ray is cast by itself, in any tier.
 
-use crate::commands::tier::{Alone, Certainty, Tier};
+use crate::commands::tier::{Alone, Tier};
 use crate::frame::{Frame, Met};
 use core::fmt;
-use core::iter::Sum;
+use core::ops::AddAssign;
 use gsdf_nostd::{Program, Raster, Settled};
 use gsdf_trade::Primitive;
 use rayon::prelude::*;
@@ -21,9 +21,11 @@ pub struct Settlements {
 }
 
 impl Settlements {
-    fn of(certainty: Certainty) -> Self {
+    /// Of one ray.
+    #[must_use]
+    pub fn of(settled: Settled) -> Self {
         let mut one = Self::default();
-        match certainty.settled {
+        match settled {
             Settled::Single => one.single = 1,
             Settled::Double => one.double = 1,
             Settled::Tie => one.tie = 1,
@@ -32,13 +34,11 @@ impl Settlements {
     }
 }
 
-impl Sum for Settlements {
-    fn sum<I: Iterator<Item = Self>>(all: I) -> Self {
-        all.fold(Self::default(), |a, b| Self {
-            single: a.single + b.single,
-            double: a.double + b.double,
-            tie: a.tie + b.tie,
-        })
+impl AddAssign for Settlements {
+    fn add_assign(&mut self, other: Self) {
+        self.single += other.single;
+        self.double += other.double;
+        self.tie += other.tie;
     }
 }
 
@@ -52,33 +52,22 @@ impl fmt::Display for Settlements {
     }
 }
 
-/// Casts a ray through the middle of every pixel, and tells how many hit something and, in the certified tier, how they were
-/// settled. Every finished row is told.
-pub fn cast(
-    frame: &mut Frame,
-    program: Program<'_, Primitive>,
-    raster: Raster,
-    tier: Tier,
-    row_done: impl Fn(u64) + Sync,
-) -> (u64, Option<Settlements>) {
+/// Casts a ray through the middle of every pixel, and tells how many hit something. Every finished row is told.
+pub fn cast(frame: &mut Frame, program: Program<'_, Primitive>, raster: Raster, tier: Tier, row_done: impl Fn(u64) + Sync) -> u64 {
     let of_row = |alone: &mut Alone<'_>, (row, y): (&mut [Option<Met>], u32)| {
-        let (mut hits, mut settled) = (0, Settlements::default());
+        let mut hits = 0;
         for (pixel, x) in row.iter_mut().zip(0..) {
             let Ok(ray) = raster.ray(x, y) else { continue };
-            let (crossing, certainty) = alone.first(&ray);
+            let (crossing, _) = alone.first(&ray);
             *pixel = crossing.map(|crossing| crossing.hit.into());
             hits += u64::from(crossing.is_some());
-            settled = [settled].into_iter().chain(certainty.map(Settlements::of)).sum();
         }
         row_done(1);
-        (hits, settled)
+        hits
     };
-    let rows: Vec<(u64, Settlements)> = frame
+    frame
         .rows_mut()
         .zip(0..raster.height())
         .map_init(|| Alone::new(program, tier), of_row)
-        .collect();
-    let hits = rows.iter().map(|(hits, _)| hits).sum();
-    let settled = rows.into_iter().map(|(_, settled)| settled).sum();
-    (hits, (tier == Tier::Certified).then_some(settled))
+        .sum()
 }

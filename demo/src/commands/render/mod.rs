@@ -1,6 +1,7 @@
 //! `gsdf render`: a picture of a model, in colours or as data.
 
 pub mod alone;
+pub mod certified;
 pub mod data;
 pub mod paint;
 pub mod view;
@@ -39,7 +40,7 @@ pub struct Render {
     /// What of it a pixel shows
     #[arg(long, value_enum, default_value_t, value_name = "WHAT")]
     pub aov: Aov,
-    /// In what arithmetic rays are cast; all but `robust` take every ray past every leaf. Shadows are always robust
+    /// In what arithmetic rays are cast. Shadows are always robust, and so are the rays that smooth edges of certified pictures
     #[arg(long, value_enum, default_value_t, value_name = "TIER")]
     pub tier: Tier,
     /// How many rays go through a pixel that differs from its neighbours: 1, 4, 9, 16 and on to 64
@@ -163,7 +164,12 @@ impl Render {
                 bar.inc(u64::from(size.height));
                 (hits, None)
             }
-            tier => alone::cast(&mut frame, solids, raster, tier, |rows| bar.inc(rows)),
+            Tier::Certified => {
+                let (hits, settled) = certified::cast(&mut frame, &scene, raster, level);
+                bar.inc(u64::from(size.height));
+                (hits, Some(settled))
+            }
+            tier => (alone::cast(&mut frame, solids, raster, tier, |rows| bar.inc(rows)), None),
         };
         let cast_ms = 1e3 * begin.elapsed().as_secs_f64();
         let depths = data::depths(&frame, size.height);

@@ -152,7 +152,7 @@ impl<'m> Painter<'m> {
 
     /// Finds what some rays meet.
     fn meet(&self, sights: &mut [Option<Sight>]) {
-        if self.tier != Tier::Robust {
+        if !matches!(self.tier, Tier::Robust | Tier::Certified) {
             sights.par_iter_mut().flatten().for_each_init(
                 || Alone::new(self.solids, self.tier),
                 |alone, sight| sight.met = alone.first(&sight.ray).0.map(|crossing| crossing.hit.into()),

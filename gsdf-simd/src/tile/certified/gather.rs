@@ -1,0 +1,219 @@
+//! The leaves that the packets of a tile may meet, as programs.
+
+use crate::lanes::Lanes;
+use crate::scene::{FANOUT, Form, Known, Meets, Scene};
+use crate::tile::march::remainder;
+use crate::tile::state::Workspace;
+use core::ops::Range;
+use gsdf_nostd::{Node, Solid};
+
+/// What the rays of a tile may meet of a scene: reduced parts, which are joined.
+#[derive(Debug, Default)]
+pub(super) struct Gathered {
+    steps: Vec<Step>,
+    parts: Vec<Reduced>,
+    /// The packets that are inside of a part all the way, for all that is gathered of it.
+    pub(super) inside: u32,
+}
+
+/// A node of a part, in postfix order.
+#[derive(Clone, Copy, Debug)]
+struct Step {
+    node: Node<()>,
+    /// If it is a leaf, its place in the scene.
+    place: u32,
+    /// The packets for which it counts: all of the part's, or those that touch a complement.
+    touched: u32,
+}
+
+/// A part of the scene, as far as rays may meet it.
+#[derive(Clone, Debug)]
+struct Reduced {
+    steps: Range<u32>,
+    /// The packets that touch it, and from where on.
+    touched: u32,
+    near: f32,
+}
+
+const LEAF: Node<()> = Node::Leaf { solid: (), frame: 0 };
+
+impl Gathered {
+    /// Gathers what the rays of a tile may meet nearer than `far`.
+    #[inline(always)]
+    pub(super) fn gather<T: Lanes, L: Solid, M: Meets<T>>(
+        &mut self,
+        token: T::Token,
+        scene: &Scene<'_, L>,
+        rays: &M,
+        far: f32,
+        work: &mut Workspace<T, L>,
+    ) {
+        self.steps.clear();
+        self.parts.clear();
+        self.inside = 0;
+        work.walk.begin(scene.tree());
+        // There is one place where a part is added: what is inlined there is compiled once.
+        let (mut first, mut left) = (0, 0_u32);
+        let mut unbounded = scene.unbounded();
+        loop {
+            let (number, touched, near) = if left != 0 {
+                let place = left.trailing_zeros() as usize % FANOUT;
+                left &= left - 1;
+                let met = &work.walk.met;
+                if far <= met.near[place] {
+                    continue;
+                }
+                (first + place, met.touched[place] & work.rays.present(), met.near[place])
+            } else if !work.walk.is_over() {
+                if let Some(item) = work.walk.next::<T, M>(token, scene.tree(), rays, far) {
+                    (first, left) = (item, work.walk.met.bits);
+                }
+                continue;
+            } else if let Some(number) = unbounded.next() {
+                (number, work.rays.present(), 0.0)
+            } else {
+                break;
+            };
+            let start = self.steps.len() as u32;
+            if self.add(token, scene, rays, number, touched, work) == Known::Inside {
+                self.inside |= touched;
+            }
+            let steps = start..self.steps.len() as u32;
+            if !steps.is_empty() {
+                self.parts.push(Reduced { steps, touched, near });
+            }
+        }
+    }
+
+    /// Adds what some packets may meet of a part: nothing where they miss it, or are inside of it all the way.
+    #[inline(always)]
+    fn add<T: Lanes, L: Solid, M: Meets<T>>(
+        &mut self,
+        token: T::Token,
+        scene: &Scene<'_, L>,
+        rays: &M,
+        number: usize,
+        touched: u32,
+        work: &mut Workspace<T, L>,
+    ) -> Known {
+        let Some(part) = scene.part(number) else {
+            return Known::Outside;
+        };
+        let places = part.leaves.clone();
+        match part.form {
+            Form::Product { positives, cuts } => {
+                let first_cut = places.start + positives;
+                if scene.is_missed(&places, first_cut, |border| rays.see(border)) {
+                    return Known::Outside;
+                }
+                for place in places.start..first_cut {
+                    self.leaf(place, touched);
+                    if place > places.start {
+                        self.operator(Node::Intersection, touched);
+                    }
+                }
+                let mut is_first = positives == 0;
+                let Some(cuts) = scene.cuts(cuts) else { return Known::Open };
+                work.inner_walk.begin(cuts);
+                while let Some(item) = work.inner_walk.next::<T, M>(token, cuts, rays, f32::INFINITY) {
+                    let met = work.inner_walk.met;
+                    for place in (0..FANOUT).filter(|place| met.bits >> place & 1 == 1) {
+                        // The first operand of a complement alone stands for all packets.
+                        let of_these = if is_first { touched } else { met.touched[place] & touched };
+                        if of_these != 0 {
+                            self.leaf(first_cut + (item + place) as u32, of_these);
+                            self.operator(if is_first { Node::Complement } else { Node::Difference }, of_these);
+                            is_first = false;
+                        }
+                    }
+                }
+                // Rays that meet none of nothing but complements are inside.
+                if is_first { Known::Inside } else { Known::Open }
+            }
+            Form::March { outline, cuts } => {
+                let (Some(outline), Some(tree)) = (scene.outline(outline), scene.cuts(cuts)) else {
+                    return Known::Outside;
+                };
+                work.met_leaves.clear();
+                work.inner_walk.begin(tree);
+                while let Some(item) = work.inner_walk.next::<T, M>(token, tree, rays, f32::INFINITY) {
+                    let bits = work.inner_walk.met.bits;
+                    let open = (0..FANOUT).filter(|place| bits >> place & 1 == 1);
+                    work.met_leaves.extend(open.map(|place| ((item + place) as u32, Known::Open)));
+                }
+                scene.know(
+                    &places,
+                    #[inline(always)]
+                    |border| rays.see(border),
+                    &mut work.met_leaves,
+                );
+                let known = remainder(scene, outline, places.start, work);
+                if known == Known::Open {
+                    let mut leaves = work.places.iter();
+                    for node in &work.nodes {
+                        match node {
+                            Node::Leaf { .. } => self.leaf(leaves.next().copied().unwrap_or_default(), touched),
+                            operator => self.operator(bare(operator), touched),
+                        }
+                    }
+                }
+                known
+            }
+            Form::Whole => Known::Outside,
+        }
+    }
+
+    fn leaf(&mut self, place: u32, touched: u32) {
+        self.steps.push(Step {
+            node: LEAF,
+            place,
+            touched,
+        });
+    }
+
+    fn operator(&mut self, node: Node<()>, touched: u32) {
+        self.steps.push(Step { node, place: 0, touched });
+    }
+
+    /// The program that the rays of a packet may meet nearer than `far`, and the places of its leaves.
+    pub(super) fn packet<L: Solid>(&self, packet: usize, far: f32, scene: &Scene<'_, L>, nodes: &mut Vec<Node<L>>, places: &mut Vec<u32>) {
+        nodes.clear();
+        places.clear();
+        for part in &self.parts {
+            if part.touched >> packet & 1 == 0 || far <= part.near {
+                continue;
+            }
+            let joined = !nodes.is_empty();
+            let steps = self.steps.get(part.steps.start as usize..part.steps.end as usize);
+            for step in steps.unwrap_or_default() {
+                if step.touched >> packet & 1 == 0 {
+                    continue;
+                }
+                match step.node {
+                    Node::Leaf { .. } => {
+                        nodes.extend(scene.node(step.place));
+                        places.push(step.place);
+                    }
+                    Node::Union => nodes.push(Node::Union),
+                    Node::Intersection => nodes.push(Node::Intersection),
+                    Node::Difference => nodes.push(Node::Difference),
+                    Node::Complement => nodes.push(Node::Complement),
+                }
+            }
+            if joined {
+                nodes.push(Node::Union);
+            }
+        }
+    }
+}
+
+/// An operator.
+fn bare<L>(node: &Node<L>) -> Node<()> {
+    match node {
+        Node::Leaf { .. } => LEAF,
+        Node::Union => Node::Union,
+        Node::Intersection => Node::Intersection,
+        Node::Difference => Node::Difference,
+        Node::Complement => Node::Complement,
+    }
+}
