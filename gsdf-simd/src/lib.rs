@@ -47,6 +47,37 @@
 //! # Ok::<(), gsdf_nostd::Invalid>(())
 //! ```
 //!
+//! [`Renderer::certified`] says of every pixel how certain it is. Rays that go on from a hit, to a light or as a mirror image,
+//! leave it without an epsilon:
+//!
+//! ```
+//! use glam::{Vec3, vec3};
+//! use gsdf_nostd::{OnSurface, Sphere, csg};
+//! use gsdf_simd::{Caster, Leaving, RayHits, Rays, Scene};
+//!
+//! csg! { const MOON = difference(Sphere::new(Vec3::ZERO, 1.0), Sphere::new(vec3(0.0, 0.0, -1.2), 0.6)) }
+//! let scene = Scene::new(MOON.program());
+//! let caster = Caster::new(&scene);
+//! let (x, zero, five, one) = ([0.0_f32, 0.8], [0.0_f32; 2], [-5.0_f32; 2], [1.0_f32; 2]);
+//! let (mut distance, mut leaf, mut face) = ([0.0; 2], [0; 2], [0; 2]);
+//! let hits = RayHits { leaf: Some(&mut leaf), face: Some(&mut face), ..RayHits::distances(&mut distance) };
+//! caster.cast(&Rays::new([&x, &zero, &five], [&zero, &zero, &one]), hits)?;
+//! // The bottom of the crater, and the ball beside it.
+//! assert_eq!(leaf, [1, 0]);
+//! let z = [0, 1].map(|ray| five[ray] + distance[ray]);
+//! let slack = [0, 1].map(|ray| OnSurface::slack(vec3(x[ray], 0.0, -5.0), vec3(x[ray], 0.0, z[ray])));
+//! let leaving = Leaving { leaf: &leaf, face: &face, slack: &slack };
+//! // Towards a sun in the middle of the sky both are free; a flat light does not come out of the crater.
+//! let mut shaded = [true; 2];
+//! let up = Rays { leaving: Some(leaving), ..Rays::new([&x, &zero, &z], [&zero, &zero, &[-1.0; 2]]) };
+//! caster.any(&up, &mut shaded)?;
+//! assert_eq!(shaded, [false, false]);
+//! let aside = Rays { leaving: Some(leaving), ..Rays::new([&x, &zero, &z], [&one, &zero, &[-0.3; 2]]) };
+//! caster.any(&aside, &mut shaded)?;
+//! assert_eq!(shaded, [true, false]);
+//! # Ok::<(), gsdf_simd::LengthsDiffer>(())
+//! ```
+//!
 //! # Levels
 //! A build for any x86-64 processor may only use SSE2. Renderers ask the processor what it has and run code that was
 //! compiled for that: with AVX2 eight rays in one register, with AVX-512 sixteen. [`Level`] tells which, and
