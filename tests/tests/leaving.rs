@@ -26,11 +26,14 @@ impl Onward {
         let mut spans = vec![Span::EMPTY; program.leaves()];
         let hit = program.along(ray, &mut spans).unwrap().cast()?;
         let any = unit(rng).as_vec3();
-        let direction = match rng.random_range(0..6) {
+        let along = any - any.dot(hit.normal) * hit.normal;
+        let direction = match rng.random_range(0..8) {
             0 => any,
             1 => ray.direction().normalize().reflect(hit.normal),
-            2 => any - any.dot(hit.normal) * hit.normal,
-            3 => any - (any.dot(hit.normal) - 1e-3) * hit.normal,
+            2 => along,
+            3 => along + 1e-3 * hit.normal,
+            // From far away the point is farther from the surface than such a ray comes down to it.
+            4..6 => along - log_uniform(rng, 1e-4, 0.1) as f32 * hit.normal,
             _ => any * any.dot(hit.normal).signum(),
         };
         let departure = Departure::new(&hit, direction).ok()?;
@@ -178,7 +181,7 @@ fn scenes_of_many_parts() {
                 check(&program, &onward, scene.name)
             });
             let count = counts.reduce(Count::default, Count::joined);
-            assert!(count.hits > 50 && count.misses > 200, "{}: {count:?}", scene.name);
+            assert!(count.hits > 50 && count.misses > 100, "{}: {count:?}", scene.name);
         }
     }
 }
