@@ -58,7 +58,7 @@ impl<'h> RayHits<'h> {
 }
 
 /// Planes before a place, and from it on.
-fn split<'h>([x, y, z]: [&'h mut [f32]; 3], middle: usize) -> ([&'h mut [f32]; 3], [&'h mut [f32]; 3]) {
+fn split([x, y, z]: [&mut [f32]; 3], middle: usize) -> ([&mut [f32]; 3], [&mut [f32]; 3]) {
     let ((x, x_after), (y, y_after), (z, z_after)) = (x.split_at_mut(middle), y.split_at_mut(middle), z.split_at_mut(middle));
     ([x, y, z], [x_after, y_after, z_after])
 }
