@@ -20,7 +20,7 @@ pub struct Rays<'r> {
     pub leaving: Option<Leaving<'r>>,
 }
 
-/// The surfaces that rays leave: of each ray what an earlier one has hit where it starts, as [`RayHits`] tells it.
+/// The surfaces that rays leave: of each ray what an earlier one has hit where it starts, as [`RayHits`](super::RayHits) tells it.
 ///
 /// A ray that leaves a surface is a [`Departure`](gsdf_nostd::Departure): its root there is 0 exactly, so that shadows and
 /// mirrors need no epsilon.

@@ -280,16 +280,25 @@ impl<'a, L: Solid> Scene<'a, L> {
     /// that they see of the half-spaces among them.
     #[inline(always)]
     pub(crate) fn is_missed(&self, places: &Range<u32>, first_cut: u32, see: impl Fn(&Border) -> Known) -> bool {
-        let lost = |place: u32| if place < first_cut { Known::Outside } else { Known::Inside };
-        self.borders(places).iter().any(|(place, border)| see(border) == lost(*place))
+        // A loop: what an iterator calls would be compiled apart from what is compiled for a level.
+        for (place, border) in self.borders(places) {
+            let lost = if *place < first_cut { Known::Outside } else { Known::Inside };
+            if see(border) == lost {
+                return true;
+            }
+        }
+        false
     }
 
     /// Whether rays are inside of the solid in a place all the way, as far as they see that.
     #[inline(always)]
     pub(crate) fn is_inside(&self, place: u32, see: impl Fn(&Border) -> Known) -> bool {
-        self.borders(&(place..place + 1))
-            .iter()
-            .any(|(_, border)| see(border) == Known::Inside)
+        for (_, border) in self.borders(&(place..place + 1)) {
+            if see(border) == Known::Inside {
+                return true;
+            }
+        }
+        false
     }
 
     /// A part; those in the order of the tree come first.

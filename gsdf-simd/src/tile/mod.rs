@@ -114,7 +114,12 @@ fn visit<T: Lanes, L: Solid, M: Meets<T>>(
         }
         match form {
             Form::Product { positives, cuts } => {
-                if !scene.is_missed(&leaves, leaves.start + positives, |border| rays.see(border)) {
+                if !scene.is_missed(
+                    &leaves,
+                    leaves.start + positives,
+                    #[inline(always)]
+                    |border| rays.see(border),
+                ) {
                     work.rays.aim(token, view, which);
                     product::cast(token, view, rays, leaves, *positives, scene.cuts(*cuts), which, work);
                 }

@@ -92,7 +92,13 @@ pub(crate) fn cast<T: Lanes, L: Solid, M: Meets<T>>(
     let mut begun = false;
     for place in part.start..first_cut {
         // Of a solid that the rays are inside of all the way the product has nothing, as long as there is another one.
-        if (begun || place + 1 < first_cut) && view.scene.is_inside(place, |border| rays.see(border)) {
+        if (begun || place + 1 < first_cut)
+            && view.scene.is_inside(
+                place,
+                #[inline(always)]
+                |border| rays.see(border),
+            )
+        {
             continue;
         }
         let number = T::splat(token, view.scene.number(place) as f32);

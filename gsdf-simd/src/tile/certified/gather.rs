@@ -103,7 +103,12 @@ impl Gathered {
         match part.form {
             Form::Product { positives, cuts } => {
                 let first_cut = places.start + positives;
-                if scene.is_missed(&places, first_cut, |border| rays.see(border)) {
+                if scene.is_missed(
+                    &places,
+                    first_cut,
+                    #[inline(always)]
+                    |border| rays.see(border),
+                ) {
                     return Known::Outside;
                 }
                 for place in places.start..first_cut {
