@@ -26,7 +26,7 @@ pub struct Renderer<'s, 'a, L: Solid> {
     level: Level,
     /// What the threads work in, as long as none does.
     idle: Mutex<Vec<RowRenderer<L>>>,
-    make: fn(Level) -> RowRenderer<L>,
+    certifies: bool,
 }
 
 /// What a picture took.
@@ -68,7 +68,7 @@ where
     /// The same at another level; the pixels are the same.
     #[must_use]
     pub fn at_level(scene: &'s Scene<'a, L>, raster: Raster, level: Level) -> Self {
-        Self::made_by(L::row_renderer, scene, raster, level)
+        Self::of(scene, raster, level, false)
     }
 
     /// A renderer of pictures whose pixels are certified, at the [best level](Level::best) of this machine: beside what other
@@ -85,17 +85,17 @@ where
     /// The same at another level; the pixels and their certificates are the same.
     #[must_use]
     pub fn certified_at_level(scene: &'s Scene<'a, L>, raster: Raster, level: Level) -> Self {
-        Self::made_by(L::row_certifier, scene, raster, level)
+        Self::of(scene, raster, level, true)
     }
 
-    fn made_by(make: fn(Level) -> RowRenderer<L>, scene: &'s Scene<'a, L>, raster: Raster, level: Level) -> Self {
+    fn of(scene: &'s Scene<'a, L>, raster: Raster, level: Level, certifies: bool) -> Self {
         let mut view = View::of_any_rays(scene);
         view.look(raster);
         Self {
             view,
             raster,
             level,
-            make,
+            certifies,
             idle: Mutex::new(Vec::new()),
         }
     }
@@ -119,7 +119,7 @@ where
         let workers = rayon::current_num_threads().min(rows);
         let idle = self.idle.get_mut().unwrap_or_else(PoisonError::into_inner);
         while idle.len() < workers {
-            let mut worker = (self.make)(self.level);
+            let mut worker = L::row_renderer(self.level, self.certifies);
             worker.0.make_room(self.view.scene.most());
             idle.push(worker);
         }
@@ -145,7 +145,7 @@ where
         let idle = || self.idle.lock().unwrap_or_else(PoisonError::into_inner);
         // The last one that was given back is the one whose memory is still in a cache.
         let worker = idle().pop();
-        let mut worker = worker.unwrap_or_else(|| (self.make)(self.level));
+        let mut worker = worker.unwrap_or_else(|| L::row_renderer(self.level, self.certifies));
         let effort = worker.0.render(&self.view, &self.raster, row, target.wants(), target);
         idle().push(worker);
         effort
@@ -157,16 +157,13 @@ where
 pub struct RowRenderer<L: Solid>(Box<dyn RenderRow<L>>);
 
 impl<L: Solid + Send + Sync + 'static> RowRenderer<L> {
-    /// One for a level.
+    /// One for a level, which certifies what it renders or does not.
     #[must_use]
-    pub fn new(level: Level) -> Self {
-        level.run(MakeRowRenderer(PhantomData))
-    }
-
-    /// One for a level that certifies what it renders.
-    #[must_use]
-    pub fn certifying(level: Level) -> Self {
-        level.run(MakeRowCertifier(PhantomData))
+    pub fn new(level: Level, certifies: bool) -> Self {
+        level.run(MakeRowRenderer {
+            certifies,
+            of: PhantomData,
+        })
     }
 }
 
@@ -180,7 +177,10 @@ trait RenderRow<L: Solid>: Send {
 }
 
 /// Makes a [`RowRenderer`] for the lanes of a level.
-struct MakeRowRenderer<L>(PhantomData<L>);
+struct MakeRowRenderer<L> {
+    certifies: bool,
+    of: PhantomData<L>,
+}
 
 impl<L: Solid + Send + Sync + 'static> Work for MakeRowRenderer<L> {
     type Output = RowRenderer<L>;
@@ -190,91 +190,21 @@ impl<L: Solid + Send + Sync + 'static> Work for MakeRowRenderer<L> {
             token,
             work: Workspace::<T, L>::new(token),
             tile: Box::new(Tile::NOTHING),
-            finish: AsCast,
+            certifier: self.certifies.then(Certifier::new),
         }))
     }
 }
 
-/// Makes a [`RowRenderer`] that certifies, for the lanes of a level.
-struct MakeRowCertifier<L>(PhantomData<L>);
-
-impl<L: Solid + Send + Sync + 'static> Work for MakeRowCertifier<L> {
-    type Output = RowRenderer<L>;
-
-    fn run<T: Lanes>(self, token: T::Token) -> RowRenderer<L> {
-        RowRenderer(Box::new(RowOf {
-            token,
-            work: Workspace::<T, L>::new(token),
-            tile: Box::new(Tile::NOTHING),
-            finish: Certifier::<L>::new(),
-        }))
-    }
-}
-
-/// What is done with a tile that was cast.
-trait Finish<T: Lanes, L: Solid>: Send {
-    /// Does it to the tile with this left upper pixel, of whose pixels so many show something; tells how many do then.
-    #[allow(clippy::too_many_arguments, reason = "what a tile is made of, passed through")]
-    fn finish(
-        &mut self,
-        token: T::Token,
-        view: &View<'_, '_, L>,
-        corner: [u32; 2],
-        wants: Wants,
-        work: &mut Workspace<T, L>,
-        tile: &mut Tile,
-        hits: u32,
-    ) -> u32;
-
-    /// The certificates of the tile, if it has any.
-    fn certificates(&self) -> Option<&Certificates>;
-}
-
-/// Nothing: tiles stay as they are cast.
-struct AsCast;
-
-impl<T: Lanes, L: Solid> Finish<T, L> for AsCast {
-    #[inline(always)]
-    fn finish(&mut self, _: T::Token, _: &View<'_, '_, L>, _: [u32; 2], _: Wants, _: &mut Workspace<T, L>, _: &mut Tile, hits: u32) -> u32 {
-        hits
-    }
-
-    #[inline(always)]
-    fn certificates(&self) -> Option<&Certificates> {
-        None
-    }
-}
-
-impl<T: Lanes, L: Solid + Send> Finish<T, L> for Certifier<L> {
-    #[inline(always)]
-    fn finish(
-        &mut self,
-        token: T::Token,
-        view: &View<'_, '_, L>,
-        corner: [u32; 2],
-        wants: Wants,
-        work: &mut Workspace<T, L>,
-        tile: &mut Tile,
-        _: u32,
-    ) -> u32 {
-        self.certify(token, view, corner, wants, work, tile)
-    }
-
-    #[inline(always)]
-    fn certificates(&self) -> Option<&Certificates> {
-        Some(&self.certificates)
-    }
-}
-
-struct RowOf<T: Lanes, L, F> {
+struct RowOf<T: Lanes, L> {
     token: T::Token,
     work: Workspace<T, L>,
     /// For targets that do not lay out their pixels as tiles.
     tile: Box<Tile>,
-    finish: F,
+    /// If what was cast is to be certified: in one type with what is not, so that the code of a tile is compiled once.
+    certifier: Option<Certifier<L>>,
 }
 
-impl<T: Lanes, L: Solid + Send + Sync, F: Finish<T, L>> RenderRow<L> for RowOf<T, L, F> {
+impl<T: Lanes, L: Solid + Send + Sync> RenderRow<L> for RowOf<T, L> {
     fn make_room(&mut self, most: Most) {
         self.work.make_room(most);
     }
@@ -290,8 +220,8 @@ impl<T: Lanes, L: Solid + Send + Sync, F: Finish<T, L>> RenderRow<L> for RowOf<T
 }
 
 #[inline(always)]
-fn render_row<T: Lanes, L: Solid, F: Finish<T, L>>(
-    worker: &mut RowOf<T, L, F>,
+fn render_row<T: Lanes, L: Solid>(
+    worker: &mut RowOf<T, L>,
     view: &View<'_, '_, L>,
     raster: &Raster,
     row: usize,
@@ -302,7 +232,7 @@ fn render_row<T: Lanes, L: Solid, F: Finish<T, L>>(
         token,
         work,
         tile: own,
-        finish,
+        certifier,
     } = worker;
     let token = *token;
     let (width, height) = (raster.width(), raster.height());
@@ -318,16 +248,18 @@ fn render_row<T: Lanes, L: Solid, F: Finish<T, L>>(
             Some(place) => (place, false),
             None => (&mut **own, true),
         };
-        let hits = cast(token, view, [x, y], wants, work, place, next);
-        let mut hits = finish.finish(token, view, [x, y], wants, work, place, hits);
+        let mut hits = cast(token, view, [x, y], wants, work, place, next);
+        if let Some(certifier) = certifier {
+            hits = certifier.certify(token, view, [x, y], wants, work, place);
+        }
         if width - x < side || height - y < side {
             hits = place.hits(width - x, height - y);
         }
         if is_own {
             target.put(x, own);
         }
-        if let Some(certificates) = finish.certificates() {
-            target.certify(x, certificates);
+        if let Some(certifier) = certifier {
+            target.certify(x, &certifier.certificates);
         }
         effort.hits += u64::from(hits);
         x += side;

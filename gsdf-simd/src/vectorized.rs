@@ -20,13 +20,9 @@ use gsdf_nostd::{Leaf, Solid};
 /// gsdf_simd::vectorized!(Obstacle);
 /// ```
 pub trait Vectorized: Solid<Seen<f32>: Send + Sync> + Send + Sync + 'static {
-    /// What renders rows of tiles at a level.
+    /// What renders rows of tiles at a level, and certifies them if it is to.
     #[doc(hidden)]
-    fn row_renderer(level: Level) -> RowRenderer<Self>;
-
-    /// The same for rows that are certified.
-    #[doc(hidden)]
-    fn row_certifier(level: Level) -> RowRenderer<Self>;
+    fn row_renderer(level: Level, certifies: bool) -> RowRenderer<Self>;
 
     /// What casts batches of rays at a level.
     #[doc(hidden)]
@@ -39,12 +35,8 @@ pub trait Vectorized: Solid<Seen<f32>: Send + Sync> + Send + Sync + 'static {
 macro_rules! vectorized {
     ($leaf:ty) => {
         impl $crate::Vectorized for $leaf {
-            fn row_renderer(level: $crate::Level) -> $crate::RowRenderer<Self> {
-                $crate::RowRenderer::new(level)
-            }
-
-            fn row_certifier(level: $crate::Level) -> $crate::RowRenderer<Self> {
-                $crate::RowRenderer::certifying(level)
+            fn row_renderer(level: $crate::Level, certifies: bool) -> $crate::RowRenderer<Self> {
+                $crate::RowRenderer::new(level, certifies)
             }
 
             fn ray_caster(level: $crate::Level) -> $crate::RayCaster<Self> {
@@ -55,12 +47,8 @@ macro_rules! vectorized {
 }
 
 impl Vectorized for Leaf {
-    fn row_renderer(level: Level) -> RowRenderer<Self> {
-        RowRenderer::new(level)
-    }
-
-    fn row_certifier(level: Level) -> RowRenderer<Self> {
-        RowRenderer::certifying(level)
+    fn row_renderer(level: Level, certifies: bool) -> RowRenderer<Self> {
+        RowRenderer::new(level, certifies)
     }
 
     fn ray_caster(level: Level) -> RayCaster<Self> {

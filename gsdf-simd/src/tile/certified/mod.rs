@@ -56,8 +56,8 @@ impl<L: Solid> Certifier<L> {
     /// pixels show something.
     ///
     /// What was cast says how far each packet's rays need to look: a leaf that is met for certain beyond what is certified has
-    /// no part in it.
-    #[inline(always)]
+    /// no part in it. A function of its own, out of the way of pictures that are not certified.
+    #[inline(never)]
     pub(crate) fn certify<T: Lanes>(
         &mut self,
         token: T::Token,
@@ -70,7 +70,11 @@ impl<L: Solid> Certifier<L> {
         let Some(picture) = &view.picture else { return 0 };
         let beam = beam_of::<T>(&picture.raster, corner);
         let far = beyond(work.met.farthest(&work.rays));
-        self.gathered.gather(token, view.scene, &beam, far, work);
+        T::vectorize(
+            token,
+            #[inline(always)]
+            || self.gathered.gather(token, view.scene, &beam, far, work),
+        );
         for packet in 0..packets::<T>() {
             let far = beyond(work.met.farthest_of(&work.rays, packet));
             let first = start_of::<T>(packet);
