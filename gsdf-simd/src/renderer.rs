@@ -26,6 +26,7 @@ pub struct Renderer<'s, 'a, L: Solid> {
     level: Level,
     /// What the threads work in, as long as none does.
     idle: Mutex<Vec<RowRenderer<L>>>,
+    /// Whether pixels are certified.
     certifies: bool,
 }
 
