@@ -125,11 +125,11 @@ mod transform;
 mod unit;
 mod vec3;
 
-pub use bounded::{Bounded, Judged, SLACK};
+pub use bounded::{Bounded, Judged, Ordinary, SLACK, WithError};
 pub use camera::{Camera, Projection, Raster};
 pub use csg::{
     Anywhere, Attribution, Certificate, Certified, CertifiedScratch, Crossing, Crossings, Csg, Departure, Draft, Encounter, Footing, Hit,
-    March, Node, OnSurface, Program, ProgramError, SeenFrom, Settled, Sight, Start, attribute, certify, march, sweep,
+    March, Node, OnSurface, Program, ProgramError, SeenFrom, Settled, Sight, Start, attribute, certify, half_ulp, march, sweep,
 };
 /// The vectors and matrices in this crate's interface are those of this crate.
 #[doc(no_inline)]
@@ -145,7 +145,7 @@ pub use range::{MAX_LENGTH, MAX_SPEED, MAX_STRETCH, MIN_LENGTH, UNIT_TOLERANCE};
 pub use ray::{Line, Ray, RayError};
 pub use real::{Lane, Mask, Real};
 pub use shape::{BoxFrame, DoubleCone, WideSolidAngle};
-pub use span::Span;
+pub use span::{IN_DOUBLES, Span};
 pub use toward::{Toward, reciprocal_speed};
 pub use trace::{Field, SphereTracer, Traced};
 pub use transform::{LocalLine, Transform};

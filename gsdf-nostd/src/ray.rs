@@ -1,6 +1,6 @@
 //! Rays, refused when they are not rays.
 
-use crate::bounded::Bounded;
+use crate::bounded::WithError;
 use crate::range::{MAX_LENGTH, MAX_SPEED, max_norm, max_norm_bits, unit_scale};
 use crate::real::{Lane, Real};
 use crate::span::Span;
@@ -215,10 +215,10 @@ pub struct Line<T> {
 impl<T: Real> Line<T> {
     /// The same line, which is exact, with bounds on the errors of what was computed from it.
     #[inline(always)]
-    pub fn bounded(&self) -> Line<Bounded<T>> {
+    pub fn bounded<const ALWAYS: bool>(&self) -> Line<WithError<T, ALWAYS>> {
         let V3 { x, y, z } = self.origin;
         Line {
-            origin: V3::new(Bounded::exact(x), Bounded::exact(y), Bounded::exact(z)),
+            origin: V3::new(WithError::exact(x), WithError::exact(y), WithError::exact(z)),
             toward: self.toward.bounded(),
         }
     }

@@ -1,6 +1,6 @@
 //! What one ray sees of one solid: a half-open span of its parameter.
 
-use crate::bounded::Bounded;
+use crate::bounded::WithError;
 use crate::real::{Mask, Real};
 
 /// The part of a ray inside a convex solid: the parameters `enter <= t < exit`.
@@ -96,7 +96,34 @@ impl<T: Real> Span<T> {
     }
 }
 
-impl<T: Real> Span<Bounded<T>> {
+impl<T: Real, const ALWAYS: bool> Span<WithError<T, ALWAYS>> {
+    /// A span of which is known that it is held by one span and holds another: its ends are in between. Where the inner one is
+    /// empty it may be as well, and its ends reach to each other.
+    #[inline(always)]
+    pub fn within(outer: Span<T>, inner: Span<T>) -> Self {
+        let (inhabited, sure) = (outer.enter.lt(outer.exit), inner.enter.lt(inner.exit));
+        let length = rounded_up(outer.exit - outer.enter, outer.enter.abs() + outer.exit.abs());
+        let error = T::select(inhabited, length, length.splat_like(0.0));
+        let enter = WithError { value: outer.enter, error };
+        let exit = WithError { value: outer.exit, error };
+        Self {
+            enter: Self::end_between(sure, outer.enter, inner.enter, enter),
+            exit: Self::end_between(sure, outer.exit, inner.exit, exit),
+        }
+    }
+
+    /// What is between two numbers, where that is sure.
+    #[inline(always)]
+    fn end_between(sure: T::Mask, outer: T, inner: T, otherwise: WithError<T, ALWAYS>) -> WithError<T, ALWAYS> {
+        let half = outer.splat_like(0.5);
+        let middle = (outer + inner) * half;
+        let apart = rounded_up((inner - outer).abs() * half, middle.abs());
+        WithError {
+            value: T::select(sure, middle, otherwise.value),
+            error: T::select(sure, apart, otherwise.error),
+        }
+    }
+
     /// The ends as they were computed.
     #[inline(always)]
     pub(crate) fn values(self) -> Span<T> {
@@ -105,6 +132,23 @@ impl<T: Real> Span<Bounded<T>> {
             exit: self.exit.value,
         }
     }
+}
+
+/// Where an end of the span of a solid is known to lie between what was computed of two in `f32` ([`Solid::between`]), the end
+/// that is computed of it in `f64` is off by at most this much of half of what is between: a little more than 2^-28.
+///
+/// The signed distance from a convex solid is a convex function, so the parameter at which a ray enters the solid as it is moved
+/// outward is a convex function of by how much, and it descends the less the farther out. Between what is as much smaller than
+/// the solid as rounding in `f32` makes it and the solid itself there is less than between the two ends. Rounding in `f64` moves
+/// it by 2^-29 of that, and its end by no larger share.
+///
+/// [`Solid::between`]: crate::Solid::between
+pub const IN_DOUBLES: f32 = 1.01 / (1_u32 << 28) as f32;
+
+/// A difference of numbers of this size, and what they were rounded by.
+#[inline(always)]
+fn rounded_up<T: Real>(difference: T, size: T) -> T {
+    difference + size * size.splat_like(4.0 * T::ROUNDOFF)
 }
 
 #[cfg(test)]

@@ -1,6 +1,6 @@
 //! What depends on a ray's direction alone.
 
-use crate::bounded::Bounded;
+use crate::bounded::WithError;
 use crate::range::{LEAST_SQUARE, PARALLEL_SPEED};
 use crate::real::Real;
 use crate::vec3::V3;
@@ -25,9 +25,17 @@ impl<T: Real> Toward<T> {
     /// The direction `v`, which must not be zero.
     #[inline(always)]
     pub fn new(v: V3<T>) -> Self {
+        Self::without_components(v).with_components()
+    }
+
+    /// The same direction with the reciprocals of its components.
+    #[inline(always)]
+    #[must_use]
+    pub fn with_components(self) -> Self {
+        let v = self.v;
         Self {
             per_component: V3::new(reciprocal_speed(v.x), reciprocal_speed(v.y), reciprocal_speed(v.z)),
-            ..Self::without_components(v)
+            ..self
         }
     }
 
@@ -48,10 +56,10 @@ impl<T: Real> Toward<T> {
 
     /// The same with bounds on the errors of what was computed from `v`, which is exact.
     #[inline(always)]
-    pub(crate) fn bounded(&self) -> Toward<Bounded<T>> {
+    pub(crate) fn bounded<const ALWAYS: bool>(&self) -> Toward<WithError<T, ALWAYS>> {
         let (v, per) = (self.v, self.per_component);
         Toward {
-            v: V3::new(Bounded::exact(v.x), Bounded::exact(v.y), Bounded::exact(v.z)),
+            v: V3::new(WithError::exact(v.x), WithError::exact(v.y), WithError::exact(v.z)),
             vv: rounded(self.vv, 3.0),
             per_vv: rounded(self.per_vv, 5.0),
             per_component: V3::new(
@@ -88,8 +96,8 @@ pub fn reciprocal_speed<T: Real>(speed: T) -> T {
 
 /// A number that is off by so many roundoffs at the most.
 #[inline(always)]
-fn rounded<T: Real>(value: T, roundoffs: f32) -> Bounded<T> {
-    Bounded {
+fn rounded<T: Real, const ALWAYS: bool>(value: T, roundoffs: f32) -> WithError<T, ALWAYS> {
+    WithError {
         value,
         error: value.abs() * value.splat_like(roundoffs * T::ROUNDOFF),
     }
@@ -97,11 +105,11 @@ fn rounded<T: Real>(value: T, roundoffs: f32) -> Bounded<T> {
 
 /// The reciprocal of a speed that is exact.
 #[inline(always)]
-fn bounded_reciprocal<T: Real>(speed: T, per_speed: T) -> Bounded<T> {
+fn bounded_reciprocal<T: Real, const ALWAYS: bool>(speed: T, per_speed: T) -> WithError<T, ALWAYS> {
     let zero = speed.splat_like(0.0);
     let infinite = per_speed.abs().eq(zero.splat_like(f32::INFINITY));
-    let known = rounded(per_speed, 1.0);
-    Bounded {
+    let known: WithError<T, ALWAYS> = rounded(per_speed, 1.0);
+    WithError {
         value: per_speed,
         // Of a speed that was taken for zero nothing is known.
         error: T::select(infinite & speed.eq(zero), zero, known.error),

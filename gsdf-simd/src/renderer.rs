@@ -202,7 +202,7 @@ struct RowOf<T: Lanes, L> {
     /// For targets that do not lay out their pixels as tiles.
     tile: Box<Tile>,
     /// If what was cast is to be certified: in one type with what is not, so that the code of a tile is compiled once.
-    certifier: Option<Certifier<L>>,
+    certifier: Option<Certifier<T, L>>,
 }
 
 impl<T: Lanes, L: Solid + Send + Sync> RenderRow<L> for RowOf<T, L> {

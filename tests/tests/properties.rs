@@ -14,6 +14,7 @@ mod departures;
 mod distances;
 mod facets;
 mod fuzzed;
+mod grown;
 mod laws_of_frames;
 mod laws_of_rays;
 mod laws_of_sets;

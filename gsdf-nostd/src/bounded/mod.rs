@@ -8,6 +8,13 @@ use crate::real::{Mask, Real};
 use crate::vec3::V3;
 use core::ops::{BitAnd, BitOr, Not};
 
+/// A number that knows how wrong it may be, whatever it is: see [`WithError`].
+pub type Bounded<T> = WithError<T, true>;
+
+/// The same for ordinary numbers alone, without a branch, for many lanes at once: of what underflows, overflows or may be
+/// negative under a root nothing is known. What is known has the bounds of [`Bounded`], bit for bit.
+pub type Ordinary<T> = WithError<T, false>;
+
 /// A number somewhere within `error` of `value`: any formula computed in this arithmetic bounds its own rounding errors.
 ///
 /// The values are those of `T`, bit for bit, wherever a formula's decisions are certain. Beside each goes a bound on how far
@@ -18,9 +25,10 @@ use core::ops::{BitAnd, BitOr, Not};
 ///
 /// Cost: some four times the operations of `T`.
 ///
-/// What a ray meets is computed from such numbers by [`Program::cast_certified`](crate::Program::cast_certified).
+/// What a ray meets is computed from such numbers by [`Program::cast_certified`](crate::Program::cast_certified). `ALWAYS` says
+/// whether there are bounds for all numbers ([`Bounded`]), or for most and without branches ([`Ordinary`]).
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Bounded<T> {
+pub struct WithError<T, const ALWAYS: bool> {
     /// The number as `T` has it.
     pub value: T,
     /// By how much it may be off, but for [`SLACK`]; infinite or NaN where nothing is known.
@@ -113,7 +121,7 @@ impl<M: Mask> Mask for Judged<M> {
     }
 }
 
-impl<T: Real> Bounded<T> {
+impl<T: Real, const ALWAYS: bool> WithError<T, ALWAYS> {
     /// A number that is exactly what it says.
     #[inline(always)]
     pub fn exact(value: T) -> Self {
@@ -163,13 +171,21 @@ impl<T: Real> Bounded<T> {
         }
     }
 
-    /// Whether all lanes are far from what underflows or overflows, so that what a product loses is relative to it: the bounds
-    /// are then a few operations, and the rest is elsewhere.
+    /// The number where it is ordinary: of others nothing is known here, nor is it asked where there are bounds for all.
     #[inline(always)]
-    fn are_ordinary(value: T) -> bool {
-        Self::is_ordinary(value).all()
+    fn where_known(self, ordinary: T::Mask) -> Self {
+        if ALWAYS {
+            return self;
+        }
+        let unknown = self.error.splat_like(f32::INFINITY);
+        Self {
+            value: self.value,
+            error: T::select(ordinary, self.error, unknown),
+        }
     }
 
+    /// Where a number is far from what underflows or overflows, so that what a product loses is relative to it: the bounds
+    /// are then a few operations, and the rest is elsewhere.
     #[inline(always)]
     fn is_ordinary(value: T) -> T::Mask {
         let size = value.abs();
@@ -231,13 +247,13 @@ impl<T: Real> Bounded<T> {
     }
 }
 
-impl<T: Real> Real for Bounded<T> {
+impl<T: Real, const ALWAYS: bool> Real for WithError<T, ALWAYS> {
     type Mask = Judged<T::Mask>;
     const LANES: usize = T::LANES;
     const ROBUST: bool = T::ROBUST;
     const ROUNDOFF: f32 = T::ROUNDOFF;
     const INLINED: bool = T::INLINED;
-    type Scalar = Bounded<T::Scalar>;
+    type Scalar = WithError<T::Scalar, ALWAYS>;
 
     #[inline(always)]
     fn apart<R>(self, work: impl FnOnce() -> R) -> R {
@@ -257,13 +273,12 @@ impl<T: Real> Real for Bounded<T> {
     /// Of a number that may be negative, but need not be, the root of what it is at the most is within the bound.
     #[inline(always)]
     fn sqrt(self) -> Self {
-        if Self::are_ordinary(self.value) && self.reach().lt(self.value).all() {
+        let ordinary = Self::is_ordinary(self.value) & self.reach().lt(self.value);
+        if !ALWAYS || ordinary.all() {
             let value = self.value.sqrt();
             // `sqrt(x) - sqrt(x - e)` is at most `e / sqrt(x)`.
-            Self {
-                value,
-                error: self.error / value + Self::half_ulp(value),
-            }
+            let error = self.error / value + Self::half_ulp(value);
+            Self { value, error }.where_known(ordinary)
         } else {
             operators::odd_root(self)
         }
@@ -320,7 +335,7 @@ impl<T: Real> Real for Bounded<T> {
     #[inline(always)]
     fn select(mask: Self::Mask, yes: Self, no: Self) -> Self {
         let value = T::select(mask.yes, yes.value, no.value);
-        if mask.sure.all() {
+        if ALWAYS && mask.sure.all() {
             let error = T::select(mask.yes, yes.error, no.error);
             return Self { value, error };
         }
@@ -369,7 +384,7 @@ impl<T: Real> Real for Bounded<T> {
     #[inline(always)]
     fn ends_where(inhabited: Self::Mask, enter: Self, exit: Self) -> (Self, Self) {
         let value = enter.value;
-        if inhabited.sure.all() {
+        if ALWAYS && inhabited.sure.all() {
             return (
                 enter.where_else(inhabited.yes, f32::INFINITY),
                 exit.where_else(inhabited.yes, f32::NEG_INFINITY),

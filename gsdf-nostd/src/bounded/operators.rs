@@ -1,10 +1,10 @@
 //! The operators: what each rounding may lose.
 
-use super::{Bounded, UNDERFLOW};
+use super::{UNDERFLOW, WithError};
 use crate::real::{Mask, Real};
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
-impl<T: Real> Add for Bounded<T> {
+impl<T: Real, const ALWAYS: bool> Add for WithError<T, ALWAYS> {
     type Output = Self;
 
     #[inline(always)]
@@ -14,7 +14,8 @@ impl<T: Real> Add for Bounded<T> {
         let (a_part, b_part) = (value - b, value - (value - b));
         let lost = ((a - a_part) + (b - b_part)).abs();
         let error = (self.error + other.error) + lost;
-        if Self::is_finite(value).all() {
+        if !ALWAYS || Self::is_finite(value).all() {
+            // Of what is infinite, what is lost is not a number.
             Self { value, error }
         } else {
             endless_sum(self, other, value, error)
@@ -22,7 +23,7 @@ impl<T: Real> Add for Bounded<T> {
     }
 }
 
-impl<T: Real> Sub for Bounded<T> {
+impl<T: Real, const ALWAYS: bool> Sub for WithError<T, ALWAYS> {
     type Output = Self;
 
     #[inline(always)]
@@ -31,37 +32,35 @@ impl<T: Real> Sub for Bounded<T> {
     }
 }
 
-impl<T: Real> Mul for Bounded<T> {
+impl<T: Real, const ALWAYS: bool> Mul for WithError<T, ALWAYS> {
     type Output = Self;
 
     #[inline(always)]
     fn mul(self, other: Self) -> Self {
         let value = self.value * other.value;
-        if Self::are_ordinary(value) {
+        let ordinary = Self::is_ordinary(value);
+        if !ALWAYS || ordinary.all() {
             let inherited = self.value.abs() * other.error + (other.value.abs() + other.error) * self.error;
-            Self {
-                value,
-                error: inherited + Self::half_ulp(value),
-            }
+            let error = inherited + Self::half_ulp(value);
+            Self { value, error }.where_known(ordinary)
         } else {
             odd_product(self, other, value)
         }
     }
 }
 
-impl<T: Real> Div for Bounded<T> {
+impl<T: Real, const ALWAYS: bool> Div for WithError<T, ALWAYS> {
     type Output = Self;
 
     #[inline(always)]
     fn div(self, other: Self) -> Self {
         let value = self.value / other.value;
         let least = other.value.abs() - other.reach();
-        if Self::are_ordinary(value) && least.splat_like(0.0).lt(least).all() {
+        let ordinary = Self::is_ordinary(value) & least.splat_like(0.0).lt(least);
+        if !ALWAYS || ordinary.all() {
             let inherited = (self.error + value.abs() * other.error) / least;
-            Self {
-                value,
-                error: inherited + Self::half_ulp(value),
-            }
+            let error = inherited + Self::half_ulp(value);
+            Self { value, error }.where_known(ordinary)
         } else {
             odd_quotient(self, other, value)
         }
@@ -72,40 +71,41 @@ impl<T: Real> Div for Bounded<T> {
 
 #[cold]
 #[inline(never)]
-fn endless_sum<T: Real>(a: Bounded<T>, b: Bounded<T>, value: T, error: T) -> Bounded<T> {
+fn endless_sum<T: Real, const ALWAYS: bool>(a: WithError<T, ALWAYS>, b: WithError<T, ALWAYS>, value: T, error: T) -> WithError<T, ALWAYS> {
     value.apart(
         #[inline(always)]
         || {
             let zero = value.splat_like(0.0);
-            let endless = !(Bounded::is_finite(a.value) & Bounded::is_finite(b.value));
-            let sum = Bounded::rounded(value, a.error + b.error, zero, endless);
-            Bounded {
+            let endless = !(WithError::<T, ALWAYS>::is_finite(a.value) & WithError::<T, ALWAYS>::is_finite(b.value));
+            let sum = WithError::<T, ALWAYS>::rounded(value, a.error + b.error, zero, endless);
+            WithError {
                 value,
-                error: T::select(Bounded::is_finite(value), error, sum.error),
+                error: T::select(WithError::<T, ALWAYS>::is_finite(value), error, sum.error),
             }
         },
     )
 }
 
 #[inline(never)]
-fn odd_product<T: Real>(a: Bounded<T>, b: Bounded<T>, value: T) -> Bounded<T> {
+fn odd_product<T: Real, const ALWAYS: bool>(a: WithError<T, ALWAYS>, b: WithError<T, ALWAYS>, value: T) -> WithError<T, ALWAYS> {
     value.apart(
         #[inline(always)]
         || {
             let zero = value.splat_like(0.0);
             let nothing = a.is_nothing() | b.is_nothing();
-            if nothing.all() && Bounded::is_finite(value).all() {
-                return Bounded::exact(value);
+            if nothing.all() && WithError::<T, ALWAYS>::is_finite(value).all() {
+                return WithError::<T, ALWAYS>::exact(value);
             }
             let inherited = a.value.abs() * b.error + (b.value.abs() + b.error) * a.error;
             let exact = a.is_exact() & b.is_exact();
             // Other lanes' numbers are no reason for another bound.
-            let rounding = Bounded::half_ulp(value) + T::select(Bounded::is_ordinary(value), zero, zero.splat_like(UNDERFLOW));
-            Bounded::rounded(
+            let rounding = WithError::<T, ALWAYS>::half_ulp(value)
+                + T::select(WithError::<T, ALWAYS>::is_ordinary(value), zero, zero.splat_like(UNDERFLOW));
+            WithError::<T, ALWAYS>::rounded(
                 value,
                 T::select(exact | nothing, zero, inherited),
                 T::select(nothing, zero, rounding),
-                !(Bounded::is_finite(a.value) & Bounded::is_finite(b.value)),
+                !(WithError::<T, ALWAYS>::is_finite(a.value) & WithError::<T, ALWAYS>::is_finite(b.value)),
             )
         },
     )
@@ -113,7 +113,7 @@ fn odd_product<T: Real>(a: Bounded<T>, b: Bounded<T>, value: T) -> Bounded<T> {
 
 #[cold]
 #[inline(never)]
-fn odd_quotient<T: Real>(a: Bounded<T>, b: Bounded<T>, value: T) -> Bounded<T> {
+fn odd_quotient<T: Real, const ALWAYS: bool>(a: WithError<T, ALWAYS>, b: WithError<T, ALWAYS>, value: T) -> WithError<T, ALWAYS> {
     value.apart(
         #[inline(always)]
         || {
@@ -122,13 +122,13 @@ fn odd_quotient<T: Real>(a: Bounded<T>, b: Bounded<T>, value: T) -> Bounded<T> {
             let inherited = (a.error + value.abs() * b.error) / least;
             let inherited = T::select(zero.lt(least), inherited, zero.splat_like(f32::INFINITY));
             let exact = a.is_exact() & b.is_exact();
-            let is_ordinary = Bounded::is_ordinary(value) & zero.lt(least);
-            let rounding = Bounded::half_ulp(value) + T::select(is_ordinary, zero, zero.splat_like(UNDERFLOW));
-            Bounded::rounded(
+            let is_ordinary = WithError::<T, ALWAYS>::is_ordinary(value) & zero.lt(least);
+            let rounding = WithError::<T, ALWAYS>::half_ulp(value) + T::select(is_ordinary, zero, zero.splat_like(UNDERFLOW));
+            WithError::<T, ALWAYS>::rounded(
                 value,
                 T::select(exact, zero, inherited),
                 T::select(a.is_nothing(), zero, rounding),
-                !Bounded::is_finite(a.value) | b.is_nothing(),
+                !WithError::<T, ALWAYS>::is_finite(a.value) | b.is_nothing(),
             )
         },
     )
@@ -136,7 +136,7 @@ fn odd_quotient<T: Real>(a: Bounded<T>, b: Bounded<T>, value: T) -> Bounded<T> {
 
 #[cold]
 #[inline(never)]
-pub(super) fn odd_root<T: Real>(square: Bounded<T>) -> Bounded<T> {
+pub(super) fn odd_root<T: Real, const ALWAYS: bool>(square: WithError<T, ALWAYS>) -> WithError<T, ALWAYS> {
     square.value.apart(
         #[inline(always)]
         || {
@@ -146,12 +146,17 @@ pub(super) fn odd_root<T: Real>(square: Bounded<T>) -> Bounded<T> {
             let value = T::select(negative & zero.lt(most), zero, square.value.sqrt());
             let inherited = T::select(square.reach().lt(square.value), square.error / value, value + most);
             let inherited = T::select(square.is_exact(), zero, inherited);
-            Bounded::rounded(value, inherited, Bounded::half_ulp(value), !Bounded::is_finite(square.value))
+            WithError::<T, ALWAYS>::rounded(
+                value,
+                inherited,
+                WithError::<T, ALWAYS>::half_ulp(value),
+                !WithError::<T, ALWAYS>::is_finite(square.value),
+            )
         },
     )
 }
 
-impl<T: Real> Neg for Bounded<T> {
+impl<T: Real, const ALWAYS: bool> Neg for WithError<T, ALWAYS> {
     type Output = Self;
 
     #[inline(always)]

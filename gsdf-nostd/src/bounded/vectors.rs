@@ -1,17 +1,17 @@
 //! Whole formulas whose bounds are simpler than those of their operations one by one.
 
-use super::{Bounded, UNDERFLOW};
+use super::{UNDERFLOW, WithError};
 use crate::quadratic::Chord;
 use crate::real::Real;
 use crate::vec3::V3;
 
 /// The scalar product. Each of its products is off by what its factors are, and rounded three times at the most.
 #[inline(always)]
-pub(super) fn dot<T: Real>(a: V3<Bounded<T>>, b: V3<Bounded<T>>) -> Bounded<T> {
+pub(super) fn dot<T: Real, const ALWAYS: bool>(a: V3<WithError<T, ALWAYS>>, b: V3<WithError<T, ALWAYS>>) -> WithError<T, ALWAYS> {
     let (x, y, z) = (Product::of(a.x, b.x), Product::of(a.y, b.y), Product::of(a.z, b.z));
     let rounding = (x.size + y.size + z.size) * x.size.splat_like(3.0 * T::ROUNDOFF);
     let inherited = x.inherited + y.inherited + z.inherited;
-    Bounded {
+    WithError {
         value: (x.value + y.value) + z.value,
         error: (inherited + rounding) + underflow(x.factor + y.factor + z.factor),
     }
@@ -19,7 +19,7 @@ pub(super) fn dot<T: Real>(a: V3<Bounded<T>>, b: V3<Bounded<T>>) -> Bounded<T> {
 
 /// The vector product. Each of its products is rounded twice.
 #[inline(always)]
-pub(super) fn cross<T: Real>(a: V3<Bounded<T>>, b: V3<Bounded<T>>) -> V3<Bounded<T>> {
+pub(super) fn cross<T: Real, const ALWAYS: bool>(a: V3<WithError<T, ALWAYS>>, b: V3<WithError<T, ALWAYS>>) -> V3<WithError<T, ALWAYS>> {
     V3::new(
         difference(a.y, b.z, a.z, b.y),
         difference(a.z, b.x, a.x, b.z),
@@ -28,10 +28,15 @@ pub(super) fn cross<T: Real>(a: V3<Bounded<T>>, b: V3<Bounded<T>>) -> V3<Bounded
 }
 
 #[inline(always)]
-fn difference<T: Real>(a: Bounded<T>, b: Bounded<T>, c: Bounded<T>, d: Bounded<T>) -> Bounded<T> {
+fn difference<T: Real, const ALWAYS: bool>(
+    a: WithError<T, ALWAYS>,
+    b: WithError<T, ALWAYS>,
+    c: WithError<T, ALWAYS>,
+    d: WithError<T, ALWAYS>,
+) -> WithError<T, ALWAYS> {
     let (first, second) = (Product::of(a, b), Product::of(c, d));
     let rounding = (first.size + second.size) * first.size.splat_like(2.0 * T::ROUNDOFF);
-    Bounded {
+    WithError {
         value: first.value - second.value,
         error: (first.inherited + second.inherited + rounding) + underflow(first.factor + second.factor),
     }
@@ -49,7 +54,7 @@ struct Product<T> {
 
 impl<T: Real> Product<T> {
     #[inline(always)]
-    fn of(a: Bounded<T>, b: Bounded<T>) -> Self {
+    fn of<const ALWAYS: bool>(a: WithError<T, ALWAYS>, b: WithError<T, ALWAYS>) -> Self {
         let value = a.value * b.value;
         let (a_size, b_most) = (a.value.abs(), b.value.abs() + b.error);
         Self {
@@ -70,7 +75,7 @@ fn underflow<T: Real>(factors: T) -> T {
 
 /// A component of `l = W - (B/A) V`, and by how much it may be off, but for what `B/A` is.
 #[inline(always)]
-fn away<T: Real>(w: Bounded<T>, v: Bounded<T>, nearest: T) -> (T, T) {
+fn away<T: Real, const ALWAYS: bool>(w: WithError<T, ALWAYS>, v: WithError<T, ALWAYS>, nearest: T) -> (T, T) {
     let along = v.value * nearest;
     let l = w.value - along;
     let rounding = (along.abs() + l.abs()) * nearest.splat_like(T::ROUNDOFF);
@@ -83,7 +88,10 @@ fn away<T: Real>(w: Bounded<T>, v: Bounded<T>, nearest: T) -> (T, T) {
 /// `V` and its own roundings, `ν` from `B/A`. Since `l` is perpendicular to `V`, the square of what was computed, `l'`, is too large
 /// by exactly `2 l'.δ - δ² + ν² A`: what is off along the ray counts by its square alone.
 #[inline(always)]
-pub(super) fn discriminant<T: Real>(chord: &Chord<Bounded<T>>, b: Bounded<T>) -> Bounded<T> {
+pub(super) fn discriminant<T: Real, const ALWAYS: bool>(
+    chord: &Chord<WithError<T, ALWAYS>>,
+    b: WithError<T, ALWAYS>,
+) -> WithError<T, ALWAYS> {
     let zero = b.value.splat_like(0.0);
     let (roundoff, three_roundoffs) = (zero.splat_like(T::ROUNDOFF), zero.splat_like(3.0 * T::ROUNDOFF));
     let Chord { w, v, a, per_a, c, r2 } = chord;
@@ -103,7 +111,7 @@ pub(super) fn discriminant<T: Real>(chord: &Chord<Bounded<T>>, b: Bounded<T>) ->
     let on = c.value.eq(zero);
     let level = b.value.squared();
     let off_level = (b.value.abs() + b.value.abs() + b.error) * b.error + (a.value + a.error) * c.error + level * roundoff;
-    Bounded {
+    WithError {
         value: T::select(on, level, away),
         error: T::select(on, off_level, off_away) + zero.splat_like(UNDERFLOW),
     }

@@ -4,8 +4,7 @@ use super::certify::{Certificate, certify};
 use super::check::ProgramError;
 use super::footing::Anywhere;
 use super::hit::Hit;
-use super::lanes::Encounter;
-use super::node::Node;
+use super::lanes::{Encounter, span_in_world};
 use super::program::{Csg, Program};
 use crate::bounded::Bounded;
 use crate::leaf::{Solid, Surface};
@@ -23,8 +22,8 @@ use crate::transform::Transform;
 pub struct Certified {
     /// The first crossing within the ray's range, with its parameter rounded from `f64`; `None` where there is none.
     pub hit: Option<Hit>,
-    /// By how much the hit's parameter may be off. In all but rare cases half a unit in its last place, which is to say that it
-    /// is rounded correctly; infinite where nothing is certain.
+    /// By how much the hit's parameter may be off. In all but rare cases [half a unit in its last place](half_ulp), which is to
+    /// say that it is rounded correctly; infinite where nothing is certain.
     pub bound: f32,
     /// How far one had to go.
     pub settled: Settled,
@@ -130,16 +129,6 @@ impl<L: Solid> Program<'_, L> {
             settled,
         })
     }
-
-    /// A leaf by its number, with its pose.
-    fn leaf(&self, number: u32) -> Option<(&L, Option<&Transform>)> {
-        let mut leaves = self.nodes.iter().filter_map(|node| match node {
-            Node::Leaf { solid, frame } => Some((solid, *frame)),
-            _ => None,
-        });
-        let (solid, frame) = leaves.nth(number as usize)?;
-        Some((solid, self.pose(frame)))
-    }
 }
 
 impl<const N: usize, L: Solid> Csg<N, L> {
@@ -220,21 +209,21 @@ const EMPTY_DOUBLE: Span<Bounded<f64>> = Span {
     },
 };
 
-/// An end of a leaf's span in `f64`: the nearest `f32` with a bound on its error, and as it is.
+/// An end of a leaf's span in `f64`: the nearest `f32` with a bound on its error, half a unit in its last place if that is one,
+/// and as it is.
 fn sharpened<L: Solid>(ray: &Ray, solid: &L, pose: Option<&Transform>, at_enter: bool) -> (f32, f32, Bounded<f64>) {
-    let line = ray.line(0.0_f64).bounded();
-    let span = match pose {
-        Some(pose) => {
-            let local = pose.line_to_local(&line);
-            local.span_in_world(solid.span_along(&local.line))
-        }
-        None => solid.span_along(&line),
-    };
+    let span: Span<Bounded<f64>> = span_in_world(&ray.line(0.0_f64).bounded(), solid, pose);
     let end = ray.parameter_of(if at_enter { span.enter } else { span.exit });
     let t = end.value.to_f32();
-    let bound = (f64::from(t) - end.value).abs() + end.doubt().value;
-    let rounded = bound.to_f32();
-    (t, if f64::from(rounded) < bound { rounded.next_up() } else { rounded }, end)
+    let (off, half) = ((f64::from(t) - end.value).abs() + end.doubt().value, half_ulp(t));
+    let bound = if off <= f64::from(half) { half } else { off.to_f32().next_up() };
+    (t, bound, end)
+}
+
+/// Half of what there is between a number and the next greater one: by how much one that is rounded correctly may be off.
+#[must_use]
+pub fn half_ulp(t: f32) -> f32 {
+    0.5 * (t.next_up() - t)
 }
 
 /// The surface of a leaf at a certified end of its span.

@@ -2,7 +2,7 @@
 
 use super::node::Node;
 use super::sweep::sweep_values;
-use crate::bounded::{Bounded, SLACK};
+use crate::bounded::{Bounded, SLACK, WithError};
 use crate::real::{Mask, Real};
 use crate::span::Span;
 
@@ -33,7 +33,7 @@ struct Window<T: Real> {
 
 /// By how much the ends at `t` may be off, and the last of them.
 #[inline(always)]
-fn window_at<T: Real>(spans: &[Span<Bounded<T>>], t: T) -> Window<T> {
+fn window_at<T: Real, const ALWAYS: bool>(spans: &[Span<WithError<T, ALWAYS>>], t: T) -> Window<T> {
     let (zero, one) = (t.splat_like(0.0), t.splat_like(1.0));
     let mut window = Window {
         reach: zero,
@@ -54,7 +54,7 @@ fn window_at<T: Real>(spans: &[Span<Bounded<T>>], t: T) -> Window<T> {
 
 /// How many ends may be within `reach` of `t`.
 #[inline(always)]
-fn ends_near<T: Real>(spans: &[Span<Bounded<T>>], t: T, reach: T) -> T {
+fn ends_near<T: Real, const ALWAYS: bool>(spans: &[Span<WithError<T, ALWAYS>>], t: T, reach: T) -> T {
     let (zero, one, slack) = (t.splat_like(0.0), t.splat_like(1.0), t.splat_like(SLACK));
     let mut count = zero;
     for span in spans {
@@ -69,7 +69,7 @@ fn ends_near<T: Real>(spans: &[Span<Bounded<T>>], t: T, reach: T) -> T {
 
 /// Whether no end may be at `t` but one that is exactly there.
 #[inline(always)]
-fn is_clear<T: Real>(spans: &[Span<Bounded<T>>], t: T) -> T::Mask {
+fn is_clear<T: Real, const ALWAYS: bool>(spans: &[Span<WithError<T, ALWAYS>>], t: T) -> T::Mask {
     let (zero, slack) = (t.splat_like(0.0), t.splat_like(SLACK));
     let mut clear = t.eq(t);
     for span in spans {
@@ -90,7 +90,7 @@ fn is_clear<T: Real>(spans: &[Span<Bounded<T>>], t: T) -> T::Mask {
 /// holds several their order is not certain, and nothing is. A span that may be empty counts as inhabited, with ends that
 /// reach to each other, so that a window that holds one holds both.
 #[inline(always)]
-pub fn certify<T: Real, L>(nodes: &[Node<L>], spans: &[Span<Bounded<T>>], start: T) -> Certificate<T> {
+pub fn certify<T: Real, L, const ALWAYS: bool>(nodes: &[Node<L>], spans: &[Span<WithError<T, ALWAYS>>], start: T) -> Certificate<T> {
     let (zero, one) = (start.splat_like(0.0), start.splat_like(1.0));
     let infinity = start.splat_like(f32::INFINITY);
     let first = sweep_values(nodes, spans, start);

@@ -72,6 +72,23 @@ impl<L: Solid> Program<'_, L> {
         }
     }
 
+    /// The span of one leaf along a line in the world, if there is one of that number.
+    #[inline(always)]
+    pub fn span_of<T: Real>(&self, number: u32, line: &Line<T>) -> Option<Span<T>> {
+        let (solid, pose) = self.leaf(number)?;
+        Some(span_in_world(line, solid, pose))
+    }
+
+    /// A leaf by its number, with its pose.
+    pub(super) fn leaf(&self, number: u32) -> Option<(&L, Option<&Transform>)> {
+        let mut leaves = self.nodes.iter().filter_map(|node| match node {
+            Node::Leaf { solid, frame } => Some((solid, *frame)),
+            _ => None,
+        });
+        let (solid, frame) = leaves.nth(number as usize)?;
+        Some((solid, self.pose(frame)))
+    }
+
     /// Third stage: the surface at the crossing `t`, which [`march`](super::march::march) found, with its normal
     /// outward from the program. Second come that and [`attribute`].
     ///
@@ -115,6 +132,18 @@ impl<L: Solid> Program<'_, L> {
             entering: after,
             surface,
         }
+    }
+}
+
+/// The span of a leaf along a line in the world.
+#[inline(always)]
+pub(super) fn span_in_world<T: Real, L: Solid>(line: &Line<T>, solid: &L, pose: Option<&Transform>) -> Span<T> {
+    match pose {
+        Some(pose) => {
+            let local = pose.line_to_local(line);
+            local.span_in_world(solid.span_along(&local.line))
+        }
+        None => solid.span_along(line),
     }
 }
 

@@ -18,7 +18,7 @@ mod sight;
 mod start;
 mod sweep;
 
-pub use certified::{Certified, CertifiedScratch, Settled};
+pub use certified::{Certified, CertifiedScratch, Settled, half_ulp};
 pub use certify::{Certificate, certify};
 pub use check::ProgramError;
 pub use draft::Draft;

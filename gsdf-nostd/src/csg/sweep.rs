@@ -2,7 +2,7 @@
 
 use super::fold::{Operand, Reading, Signed, fold};
 use super::node::Node;
-use crate::bounded::Bounded;
+use crate::bounded::WithError;
 use crate::real::{Mask, Real};
 use crate::span::Span;
 use core::slice::Iter;
@@ -22,17 +22,17 @@ pub fn sweep<T: Real, L>(nodes: &[Node<L>], spans: &[Span<T>], t: T) -> T {
 
 /// [`sweep`] over the values of spans that know their errors.
 #[inline(always)]
-pub(super) fn sweep_values<T: Real, L>(nodes: &[Node<L>], spans: &[Span<Bounded<T>>], t: T) -> T {
+pub(super) fn sweep_values<T: Real, L, const ALWAYS: bool>(nodes: &[Node<L>], spans: &[Span<WithError<T, ALWAYS>>], t: T) -> T {
     let spans = spans.iter();
     fold(nodes, Signed(t), &mut SweepValues { spans, t }).0
 }
 
-struct SweepValues<'a, T> {
-    spans: Iter<'a, Span<Bounded<T>>>,
+struct SweepValues<'a, T, const ALWAYS: bool> {
+    spans: Iter<'a, Span<WithError<T, ALWAYS>>>,
     t: T,
 }
 
-impl<T: Real, L> Reading<L> for SweepValues<'_, T> {
+impl<T: Real, L, const ALWAYS: bool> Reading<L> for SweepValues<'_, T, ALWAYS> {
     type Operand = Signed<T>;
     #[inline(always)]
     fn leaf(&mut self, _: &L, _: u16) -> Signed<T> {

@@ -209,6 +209,22 @@ impl Solid for CappedCone {
         false
     }
 
+    fn grown(&self, by: f32) -> Option<Self> {
+        let height: f32 = self.height(0.0);
+        let slope = (self.bottom_radius - self.top_radius) / height;
+        // The side moves out across itself, and each cap is where it then cuts it.
+        let out = by * libm::sqrtf(1.0 + slope * slope);
+        let (bottom, top) = (self.bottom - self.axis * by, self.top + self.axis * by);
+        Self::new(
+            bottom,
+            top,
+            self.axis,
+            self.bottom_radius + out + slope * by,
+            self.top_radius + out - slope * by,
+        )
+        .ok()
+    }
+
     fn bounds(&self) -> Option<Bounds> {
         let bottom = Bounds::of_disc(self.bottom, self.axis, self.bottom_radius);
         Some(bottom.joined(Bounds::of_disc(self.top, self.axis, self.top_radius)))

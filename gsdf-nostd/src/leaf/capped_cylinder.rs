@@ -157,6 +157,11 @@ impl Solid for CappedCylinder {
         false
     }
 
+    fn grown(&self, by: f32) -> Option<Self> {
+        let axis = self.side.axis();
+        Self::new(self.bottom() - axis * by, self.top + axis * by, axis, self.side.radius() + by).ok()
+    }
+
     fn bounds(&self) -> Option<Bounds> {
         let disc = |center| Bounds::of_disc(center, self.side.axis(), self.side.radius());
         Some(disc(self.bottom()).joined(disc(self.top)))

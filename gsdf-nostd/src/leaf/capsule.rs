@@ -159,6 +159,11 @@ impl Solid for Capsule {
         false
     }
 
+    fn grown(&self, by: f32) -> Option<Self> {
+        let [a, b] = self.ends();
+        Self::new(a, b, self.radius() + by).ok()
+    }
+
     fn bounds(&self) -> Option<Bounds> {
         let [first, second] = self.ends.map(|end| end.bounds());
         first.zip(second).map(|(first, second)| first.joined(second))

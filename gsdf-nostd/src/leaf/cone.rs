@@ -185,6 +185,15 @@ impl Solid for Cone {
         false
     }
 
+    fn grown(&self, by: f32) -> Option<Self> {
+        let height: f32 = self.height(0.0);
+        let side = libm::sqrtf(self.radius * self.radius + height * height);
+        // The tip recedes until the side is as far as it should be.
+        let tip = by * side / self.radius;
+        let radius = self.radius * (height + tip + by) / height;
+        Self::new(self.apex - self.axis * tip, self.base + self.axis * by, self.axis, radius).ok()
+    }
+
     fn bounds(&self) -> Option<Bounds> {
         let tip = Bounds::around(self.apex, Vec3::ZERO);
         Some(tip.joined(Bounds::of_disc(self.base, self.axis, self.radius)))

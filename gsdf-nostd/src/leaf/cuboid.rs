@@ -157,6 +157,10 @@ impl Solid for Cuboid {
         Surface::of_face(0.0, V3::splat(t, Vec3::NEG_X)).or_else(plane::crossing(low.x, per.x).eq(t), faces)
     }
 
+    fn grown(&self, by: f32) -> Option<Self> {
+        Self::new(self.min - by, self.max + by).ok()
+    }
+
     fn bounds(&self) -> Option<Bounds> {
         Some(Bounds {
             min: self.min,

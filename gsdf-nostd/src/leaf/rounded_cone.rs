@@ -222,6 +222,11 @@ impl Solid for RoundedCone {
         false
     }
 
+    fn grown(&self, by: f32) -> Option<Self> {
+        let ([a, b], [a_radius, b_radius]) = (self.ends(), self.radii());
+        Self::new(a, b, a_radius + by, b_radius + by).ok()
+    }
+
     fn bounds(&self) -> Option<Bounds> {
         let [first, second] = self.ends.map(|end| end.bounds());
         first.zip(second).map(|(first, second)| first.joined(second))

@@ -103,6 +103,12 @@ macro_rules! leaf_set {
                     }
                 }
 
+                fn grown(&self, by: f32) -> Option<Self> {
+                    match self {
+                        $(Self::$variant(solid) => solid.grown(by).map(Self::$variant),)+
+                    }
+                }
+
                 fn as_half_space(&self) -> Option<HalfSpace> {
                     match self {
                         $(Self::$variant(solid) => solid.as_half_space(),)+

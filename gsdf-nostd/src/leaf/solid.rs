@@ -50,6 +50,27 @@ pub trait Solid: Copy {
     /// A box around the solid, or `None` where it is unbounded.
     fn bounds(&self) -> Option<Bounds>;
 
+    /// The solid with its surface moved outward by a length, or inward by a negative one: around all points within the length of
+    /// it, or within all that are not that near to its surface. To a rounding of its parameters. `None` where nothing is left of
+    /// it, what there is has no such parameters, or nobody has said.
+    #[inline]
+    fn grown(&self, _by: f32) -> Option<Self> {
+        None
+    }
+
+    /// The solid a little larger, and a little smaller: along any ray that starts within `reach` of the origin of its frame the
+    /// exact span lies between those that are computed of these two, in `f32`. That follows from what is
+    /// [promised](crate#accuracy) of every surface, and is `None` where the solid has no bounds or cannot be [grown](Self::grown).
+    ///
+    /// Two spans without errors are less work than one that [knows](crate::Bounded) its own: see [`Span::within`].
+    #[inline]
+    fn between(&self, reach: f32) -> Option<[Self; 2]> {
+        let bounds = self.bounds()?;
+        let farthest = bounds.min.abs().max(bounds.max.abs()).length();
+        let by = (reach + 2.0 * farthest) * BETWEEN;
+        Some([self.grown(by)?, self.grown(-by)?])
+    }
+
     /// The solid, if it is a half-space: it has no bounds, but an evaluator can leave it out for rays that never meet it.
     #[inline]
     fn as_half_space(&self) -> Option<HalfSpace> {
@@ -149,6 +170,15 @@ pub trait Solid: Copy {
         }
     }
 }
+
+/// By what [`Solid::between`] grows a solid, as a share of the distance at which the ray starts and of twice that of the
+/// farthest point of the solid: 32 units roundoff.
+///
+/// Rounding moves a surface by 8 units of all that meets at a crossing, which is at most twice these two: the solid's points of
+/// definition and its radius are both within its farthest point, and the ray travels no farther than from its start to there. That
+/// is 16 units. As many more are what the larger and the smaller solid may seem to be smaller and larger themselves, and leave
+/// the crossing in `f64` between them with all that [`IN_DOUBLES`](crate::IN_DOUBLES) needs.
+const BETWEEN: f32 = 32.0 / 16_777_216.0;
 
 /// [`Solid::span_along`] as a function of its own, of which one copy is enough.
 #[inline]

@@ -133,6 +133,10 @@ impl Solid for Sphere {
         false
     }
 
+    fn grown(&self, by: f32) -> Option<Self> {
+        Self::new(self.center, self.radius + by).ok()
+    }
+
     fn bounds(&self) -> Option<Bounds> {
         Some(Bounds::around(self.center, Vec3::splat(self.radius)))
     }

@@ -26,6 +26,8 @@ pub(crate) struct Picture {
     pub(crate) raster: Raster,
     /// Whether the raster makes valid rays of all its pixels, whatever they are.
     pub(crate) valid: bool,
+    /// How far from the middle of the world they start, at the most.
+    pub(crate) reach: f32,
 }
 
 impl<'s, 'a, L: Solid> View<'s, 'a, L> {
@@ -44,6 +46,7 @@ impl<'s, 'a, L: Solid> View<'s, 'a, L> {
         self.picture = Some(Picture {
             raster,
             valid: makes_valid_rays(&raster),
+            reach: reach(&raster),
         });
         let camera = raster.camera();
         self.eye = (camera.projection() == Projection::Pinhole).then_some(camera.eye());
@@ -85,6 +88,15 @@ fn seen_from<L: Solid>(solid: &L, pose: Option<&Transform>, eye: Vec3) -> L::See
         None => eye,
     };
     solid.seen_from(eye)
+}
+
+/// How far from the middle of the world rays start, at the most.
+fn reach(raster: &Raster) -> f32 {
+    let eye = raster.camera().eye().length();
+    match raster.camera().projection() {
+        Projection::Pinhole => eye,
+        Projection::Orthographic => eye + raster.pixel() * (raster.width() as f32 + raster.height() as f32),
+    }
 }
 
 /// Whether a raster's numbers stay so far within the range of rays that none of its rays need be looked at.

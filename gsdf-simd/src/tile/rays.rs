@@ -145,7 +145,9 @@ impl<T: Lanes> Rays<T> {
         if missing == 0 {
             return;
         }
-        let Some(Picture { raster, valid }) = &view.picture else { return };
+        let Some(Picture { raster, valid, .. }) = &view.picture else {
+            return;
+        };
         if self.aimed == 0 {
             self.aim_columns_and_rows(token, raster);
         }

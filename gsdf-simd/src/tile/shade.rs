@@ -97,6 +97,9 @@ fn clear<T: Lanes>(tile: &mut Tile, pixels: Range<usize>, wants: Wants, nothing:
         let [x, y, z] = &mut tile.normal;
         zero.store(&mut x[pixels.clone()]);
         zero.store(&mut y[pixels.clone()]);
-        zero.store(&mut z[pixels]);
+        zero.store(&mut z[pixels.clone()]);
+    }
+    if wants.faces {
+        zero.store_numbers(&mut tile.face[pixels]);
     }
 }

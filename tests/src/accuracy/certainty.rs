@@ -4,7 +4,7 @@ use super::measure::Cell;
 use super::trial::{Reference, Trial};
 use crate::doubled::{Ball, Ends};
 use core::ops::Range;
-use gsdf_nostd::{Bounded, Certificate, Lane, Leaf, Node, Ray, Solid as _, Span, Unit, certify};
+use gsdf_nostd::{Bounded, Certificate, IN_DOUBLES, Lane, Leaf, Node, Ray, Solid as _, Span, Unit, certify};
 use rayon::prelude::*;
 
 /// How many rays were certain, and whether rightly so.
@@ -18,6 +18,8 @@ pub struct Certainty {
     pub misses: u64,
     /// Those that `f32` was certain of, and those that `f64` was of the others.
     pub certain_misses: [u64; 2],
+    /// Rays that were certain of what is between a larger solid and a smaller one.
+    pub certain_between: u64,
     /// The first ray of which something was certain that is not so.
     pub wrong: Option<u64>,
 }
@@ -32,6 +34,7 @@ impl Certainty {
             certain_hits: both(self.certain_hits, other.certain_hits),
             misses: self.misses + other.misses,
             certain_misses: both(self.certain_misses, other.certain_misses),
+            certain_between: self.certain_between + other.certain_between,
             wrong: [self.wrong, other.wrong].into_iter().flatten().min(),
         }
     }
@@ -90,6 +93,10 @@ fn one_ray(trial: &Trial, number: u64, leaf: &Leaf, reference: &Reference) -> Ce
             }
         }
     }
+    if let Some(windows) = between(trial, leaf) {
+        certainty.certain_between = 1;
+        is_right &= windows.iter().all(|window| window.holds(crossing));
+    }
     certainty.wrong = (!is_right).then_some(number);
     certainty
 }
@@ -108,11 +115,7 @@ impl Window {
 
 /// What a certificate says, if it is one; and the least parameter that is ahead.
 fn certified<T: Lane>(trial: &Trial, leaf: &Leaf, like: T, to_f64: impl Fn(T) -> f64) -> (Option<Window>, f64) {
-    let made = match trial.solid.unit {
-        Some(unit) => unit.ray(trial.origin, trial.direction),
-        None => Ray::new(trial.origin, trial.direction).map(|ray| (ray, Unit::ONE)),
-    };
-    let (ray, parameter) = made.expect("corpora make valid rays");
+    let (ray, in_unit) = ray_of(trial);
     let line = ray.line(like).bounded();
     let span: Span<Bounded<T>> = match trial.solid.pose {
         Some(pose) => {
@@ -122,8 +125,7 @@ fn certified<T: Lane>(trial: &Trial, leaf: &Leaf, like: T, to_f64: impl Fn(T) ->
         None => leaf.span_along(&line),
     };
     let start = ray.start_on_line(like);
-    let world = f64::from(parameter.exponent()).exp2();
-    let in_world = |t: T| to_f64(ray.parameter_of(t)) * world;
+    let in_world = |t: T| to_f64(ray.parameter_of(t)) * in_unit;
     let nodes = [Node::Leaf { solid: *leaf, frame: 0 }];
     let Certificate { t, sure, .. } = certify(&nodes, &[span], start);
     let window = sure.then(|| {
@@ -135,6 +137,42 @@ fn certified<T: Lane>(trial: &Trial, leaf: &Leaf, like: T, to_f64: impl Fn(T) ->
         Window(in_world(low), in_world(high))
     });
     (window, in_world(start))
+}
+
+/// A ray, and by what its parameter is to be multiplied to be one in the world.
+fn ray_of(trial: &Trial) -> (Ray, f64) {
+    let made = match trial.solid.unit {
+        Some(unit) => unit.ray(trial.origin, trial.direction),
+        None => Ray::new(trial.origin, trial.direction).map(|ray| (ray, Unit::ONE)),
+    };
+    let (ray, parameter) = made.expect("corpora make valid rays");
+    (ray, f64::from(parameter.exponent()).exp2())
+}
+
+/// What is certain of a crossing between those of a larger and a smaller solid: where it is in `f32`, and in `f64`.
+fn between(trial: &Trial, leaf: &Leaf) -> Option<[Window; 2]> {
+    let (ray, in_unit) = ray_of(trial);
+    if trial.solid.pose.is_some() {
+        return None;
+    }
+    let [outer, inner] = leaf
+        .between(ray.origin().length())?
+        .map(|solid| solid.span_along(&ray.line(0.0_f32)));
+    let span: Span<Bounded<f32>> = Span::within(outer, inner);
+    let nodes = [Node::Leaf { solid: *leaf, frame: 0 }];
+    let found = certify(&nodes, &[span], ray.start_on_line(0.0));
+    if !found.sure {
+        return None;
+    }
+    if found.t.value == f32::INFINITY {
+        return Some([Window(f64::INFINITY, f64::INFINITY), Window(f64::INFINITY, f64::INFINITY)]);
+    }
+    let window = |(low, high): (f64, f64)| Window(ray.parameter_of(low) * in_unit, ray.parameter_of(high) * in_unit);
+    let (low, high) = found.t.ends();
+    let Span { enter, exit } = leaf.span_along(&ray.line(0.0_f64));
+    let end = if found.at_enter { enter } else { exit };
+    let doubt = f64::from(found.t.error * IN_DOUBLES);
+    Some([window((low.into(), high.into())), window((end - doubt, end + doubt))])
 }
 
 /// The next crossing.

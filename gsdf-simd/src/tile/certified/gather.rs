@@ -1,27 +1,31 @@
-//! The leaves that the packets of a tile may meet, as programs.
+//! The leaves that the packets of a tile may meet, as programs, and between what rounding keeps them.
 
 use crate::lanes::Lanes;
 use crate::scene::{FANOUT, Form, Known, Meets, Scene};
 use crate::tile::march::remainder;
 use crate::tile::state::Workspace;
 use core::ops::Range;
-use gsdf_nostd::{Node, Solid};
+use gsdf_nostd::{HalfSpace, Node, Solid};
 
 /// What the rays of a tile may meet of a scene: reduced parts, which are joined.
-#[derive(Debug, Default)]
-pub(super) struct Gathered {
+#[derive(Debug)]
+pub(super) struct Gathered<L> {
     steps: Vec<Step>,
     parts: Vec<Reduced>,
+    /// The leaves among the steps.
+    leaves: Vec<Gathering<L>>,
+    /// How far from the middle of the world the rays start, at the most.
+    reach: f32,
     /// The packets that are inside of a part all the way, for all that is gathered of it.
-    pub(super) inside: u32,
+    inside: u32,
 }
 
 /// A node of a part, in postfix order.
 #[derive(Clone, Copy, Debug)]
 struct Step {
     node: Node<()>,
-    /// If it is a leaf, its place in the scene.
-    place: u32,
+    /// If it is a leaf, its number among those gathered.
+    leaf: u32,
     /// The packets for which it counts: all of the part's, or those that touch a complement.
     touched: u32,
 }
@@ -35,22 +39,66 @@ struct Reduced {
     near: f32,
 }
 
+/// A leaf that was gathered.
+#[derive(Debug)]
+pub(super) struct Gathering<L> {
+    /// Its place in the scene.
+    pub(super) place: u32,
+    pub(super) moved: Moved<L>,
+}
+
+/// Between what a leaf is as far as rounding moves it.
+#[derive(Debug)]
+pub(super) enum Moved<L> {
+    /// It is [between](Solid::between) these.
+    Between([L; 2]),
+    /// Rounding moves a plane by the more the farther away it is met: there is no such pair.
+    HalfSpace(HalfSpace),
+    Unknown,
+}
+
+impl<L: Solid> Moved<L> {
+    fn of(scene: &Scene<'_, L>, place: u32, reach: f32) -> Self {
+        let Some((solid, frame)) = scene.leaf(place) else {
+            return Self::Unknown;
+        };
+        if let Some(plane) = solid.as_half_space().filter(|_| scene.program().pose(frame).is_none()) {
+            return Self::HalfSpace(plane);
+        }
+        match solid.between(reach).filter(|_| scene.program().pose(frame).is_none()) {
+            Some(moved) => Self::Between(moved),
+            None => Self::Unknown,
+        }
+    }
+}
+
 const LEAF: Node<()> = Node::Leaf { solid: (), frame: 0 };
 
-impl Gathered {
-    /// Gathers what the rays of a tile may meet nearer than `far`.
+impl<L: Solid> Gathered<L> {
+    pub(super) const fn new() -> Self {
+        Self {
+            steps: Vec::new(),
+            parts: Vec::new(),
+            leaves: Vec::new(),
+            reach: 0.0,
+            inside: 0,
+        }
+    }
+
+    /// Gathers what the rays of a tile may meet nearer than `far`. They start within `reach` of the middle of the world.
     #[inline(always)]
-    pub(super) fn gather<T: Lanes, L: Solid, M: Meets<T>>(
+    pub(super) fn gather<T: Lanes, M: Meets<T>>(
         &mut self,
         token: T::Token,
         scene: &Scene<'_, L>,
         rays: &M,
-        far: f32,
+        (far, reach): (f32, f32),
         work: &mut Workspace<T, L>,
     ) {
         self.steps.clear();
         self.parts.clear();
-        self.inside = 0;
+        self.leaves.clear();
+        (self.inside, self.reach) = (0, reach);
         work.walk.begin(scene.tree());
         // There is one place where a part is added: what is inlined there is compiled once.
         let (mut first, mut left) = (0, 0_u32);
@@ -87,7 +135,7 @@ impl Gathered {
 
     /// Adds what some packets may meet of a part: nothing where they miss it, or are inside of it all the way.
     #[inline(always)]
-    fn add<T: Lanes, L: Solid, M: Meets<T>>(
+    fn add<T: Lanes, M: Meets<T>>(
         &mut self,
         token: T::Token,
         scene: &Scene<'_, L>,
@@ -112,7 +160,7 @@ impl Gathered {
                     return Known::Outside;
                 }
                 for place in places.start..first_cut {
-                    self.leaf(place, touched);
+                    self.add_leaf(scene, place, touched);
                     if place > places.start {
                         self.operator(Node::Intersection, touched);
                     }
@@ -126,7 +174,7 @@ impl Gathered {
                         // The first operand of a complement alone stands for all packets.
                         let of_these = if is_first { touched } else { met.touched[place] & touched };
                         if of_these != 0 {
-                            self.leaf(first_cut + (item + place) as u32, of_these);
+                            self.add_leaf(scene, first_cut + (item + place) as u32, of_these);
                             self.operator(if is_first { Node::Complement } else { Node::Difference }, of_these);
                             is_first = false;
                         }
@@ -157,7 +205,7 @@ impl Gathered {
                     let mut leaves = work.places.iter();
                     for node in &work.nodes {
                         match node {
-                            Node::Leaf { .. } => self.leaf(leaves.next().copied().unwrap_or_default(), touched),
+                            Node::Leaf { .. } => self.add_leaf(scene, leaves.next().copied().unwrap_or_default(), touched),
                             operator => self.operator(bare(operator), touched),
                         }
                     }
@@ -168,22 +216,49 @@ impl Gathered {
         }
     }
 
-    fn leaf(&mut self, place: u32, touched: u32) {
+    fn add_leaf(&mut self, scene: &Scene<'_, L>, place: u32, touched: u32) {
         self.steps.push(Step {
             node: LEAF,
-            place,
+            leaf: self.leaves.len() as u32,
             touched,
         });
+        let moved = Moved::of(scene, place, self.reach);
+        self.leaves.push(Gathering { place, moved });
     }
 
     fn operator(&mut self, node: Node<()>, touched: u32) {
-        self.steps.push(Step { node, place: 0, touched });
+        self.steps.push(Step { node, leaf: 0, touched });
     }
 
-    /// The program that the rays of a packet may meet nearer than `far`, and the places of its leaves.
-    pub(super) fn packet<L: Solid>(&self, packet: usize, far: f32, scene: &Scene<'_, L>, nodes: &mut Vec<Node<L>>, places: &mut Vec<u32>) {
+    /// Whether rays of a packet are inside of a part all the way. What they leave is not among what was gathered.
+    #[inline(always)]
+    pub(super) fn is_inside(&self, packet: usize) -> bool {
+        self.inside >> packet & 1 == 1
+    }
+
+    /// A program of some leaves with their solids.
+    pub(super) fn solids(&self, scene: &Scene<'_, L>, bare: &[Node<()>], leaves: &[u32], nodes: &mut Vec<Node<L>>) {
         nodes.clear();
-        places.clear();
+        let mut leaves = leaves.iter();
+        nodes.extend(bare.iter().filter_map(|node| match node {
+            Node::Leaf { .. } => scene.node(self.leaf(*leaves.next()?)?.place),
+            Node::Union => Some(Node::Union),
+            Node::Intersection => Some(Node::Intersection),
+            Node::Difference => Some(Node::Difference),
+            Node::Complement => Some(Node::Complement),
+        }));
+    }
+
+    /// The leaf of a number.
+    #[inline(always)]
+    pub(super) fn leaf(&self, leaf: u32) -> Option<&Gathering<L>> {
+        self.leaves.get(leaf as usize)
+    }
+
+    /// The program that the rays of a packet may meet nearer than `far`, and the numbers of its leaves.
+    pub(super) fn packet(&self, packet: usize, far: f32, nodes: &mut Vec<Node<()>>, leaves: &mut Vec<u32>) {
+        nodes.clear();
+        leaves.clear();
         for part in &self.parts {
             if part.touched >> packet & 1 == 0 || far <= part.near {
                 continue;
@@ -194,15 +269,9 @@ impl Gathered {
                 if step.touched >> packet & 1 == 0 {
                     continue;
                 }
-                match step.node {
-                    Node::Leaf { .. } => {
-                        nodes.extend(scene.node(step.place));
-                        places.push(step.place);
-                    }
-                    Node::Union => nodes.push(Node::Union),
-                    Node::Intersection => nodes.push(Node::Intersection),
-                    Node::Difference => nodes.push(Node::Difference),
-                    Node::Complement => nodes.push(Node::Complement),
+                nodes.push(step.node);
+                if matches!(step.node, Node::Leaf { .. }) {
+                    leaves.push(step.leaf);
                 }
             }
             if joined {

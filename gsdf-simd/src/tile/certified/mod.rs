@@ -1,16 +1,19 @@
-//! What the rays of a tile meet, certified: ray by ray, of those leaves alone that their packet may meet.
+//! What the rays of a tile meet, certified, of those leaves alone that their packet may meet: packet by packet, and of what is
+//! then not certain ray by ray.
 
 mod gather;
+mod together;
 
 use super::beam_of;
 use super::pixels::{Pixel, TILE_PIXELS, Tile};
-use super::rays::{packets, start_of};
+use super::rays::{MOST_PACKETS, packets, start_of};
 use super::state::Workspace;
 use crate::lanes::Lanes;
-use crate::scene::{Picture, Scene, View};
+use crate::scene::{Picture, View};
 use crate::target::Wants;
 use gather::Gathered;
-use gsdf_nostd::{Bounded, Certified, CertifiedScratch, Node, Program, Ray, Settled, Solid, Span};
+use gsdf_nostd::{Bounded, Certified, CertifiedScratch, Node, Ordinary, Program, Ray, Settled, Solid, Span};
+use together::{Known, certify_together};
 
 /// How certain the pixels of a tile are, in the order of [`Tile`]'s planes: see [`Certified`].
 #[derive(Clone, Debug, PartialEq)]
@@ -32,21 +35,47 @@ impl Certificates {
 
 /// Memory for the certificates of tiles, kept from one to the next.
 #[derive(Debug)]
-pub(crate) struct Certifier<L> {
-    gathered: Gathered,
-    /// The program of what one packet may meet, and the places of its leaves in the scene.
-    nodes: Vec<Node<L>>,
-    places: Vec<u32>,
+pub(crate) struct Certifier<T: Lanes, L> {
+    gathered: Gathered<L>,
+    part: Part<L>,
+    together: Vec<Span<Ordinary<T>>>,
     spans: Spans,
     pub(crate) certificates: Box<Certificates>,
 }
 
-impl<L: Solid> Certifier<L> {
+/// What one packet may meet.
+#[derive(Debug)]
+struct Part<L> {
+    /// The program, and the numbers of its leaves among those gathered.
+    bare: Vec<Node<()>>,
+    leaves: Vec<u32>,
+    /// The same with its solids, once a ray is looked at by itself.
+    nodes: Vec<Node<L>>,
+}
+
+/// A packet of a tile.
+#[derive(Clone, Copy)]
+struct OfTile<'v, 's, 'a, L: Solid> {
+    view: &'v View<'s, 'a, L>,
+    picture: &'v Picture,
+    corner: [u32; 2],
+    packet: usize,
+    /// Where its pixels start in the planes of the tile.
+    first: usize,
+    /// Nothing of what was gathered is beyond.
+    far: f32,
+}
+
+impl<T: Lanes, L: Solid> Certifier<T, L> {
     pub(crate) fn new() -> Self {
         Self {
-            gathered: Gathered::default(),
-            nodes: Vec::new(),
-            places: Vec::new(),
+            gathered: Gathered::new(),
+            part: Part {
+                bare: Vec::new(),
+                leaves: Vec::new(),
+                nodes: Vec::new(),
+            },
+            together: Vec::new(),
             spans: Spans::default(),
             certificates: Box::new(Certificates::NOTHING),
         }
@@ -58,7 +87,7 @@ impl<L: Solid> Certifier<L> {
     /// What was cast says how far each packet's rays need to look: a leaf that is met for certain beyond what is certified has
     /// no part in it. A function of its own, out of the way of pictures that are not certified.
     #[inline(never)]
-    pub(crate) fn certify<T: Lanes>(
+    pub(crate) fn certify(
         &mut self,
         token: T::Token,
         view: &View<'_, '_, L>,
@@ -69,44 +98,87 @@ impl<L: Solid> Certifier<L> {
     ) -> u32 {
         let Some(picture) = &view.picture else { return 0 };
         let beam = beam_of::<T>(&picture.raster, corner);
-        let far = beyond(work.met.farthest(&work.rays));
+        let mut fars = [f32::INFINITY; MOST_PACKETS];
         T::vectorize(
             token,
             #[inline(always)]
-            || self.gathered.gather(token, view.scene, &beam, far, work),
+            || {
+                let far = beyond(work.met.farthest(&work.rays));
+                self.gathered.gather(token, view.scene, &beam, (far, picture.reach), work);
+                for (packet, far) in fars.iter_mut().enumerate().take(packets::<T>()) {
+                    *far = beyond(work.met.farthest_of(&work.rays, packet));
+                }
+            },
         );
-        for packet in 0..packets::<T>() {
-            let far = beyond(work.met.farthest_of(&work.rays, packet));
-            let first = start_of::<T>(packet);
-            self.certify_packet(view.scene, picture, corner, packet, far, first..first + T::LANES, wants, tile);
+        for (packet, far) in fars.into_iter().enumerate().take(packets::<T>()) {
+            self.gathered.packet(packet, far, &mut self.part.bare, &mut self.part.leaves);
+            let of = OfTile {
+                view,
+                picture,
+                corner,
+                packet,
+                first: start_of::<T>(packet),
+                far,
+            };
+            let missing = self.together(token, of, work, tile);
+            if missing != 0 {
+                self.one_by_one(of, missing, wants, tile);
+            }
         }
         tile.distance.iter().map(|distance| u32::from(*distance < f32::INFINITY)).sum()
     }
 
-    /// Certifies the rays of a packet, which have met something nearer than `far`.
+    /// Certifies the rays of a packet all at once, and tells of which that has failed.
+    fn together(&mut self, token: T::Token, of: OfTile<'_, '_, '_, L>, work: &mut Workspace<T, L>, tile: &mut Tile) -> u32 {
+        let every = u32::MAX >> (u32::BITS as usize - T::LANES);
+        if !of.picture.valid || self.gathered.is_inside(of.packet) {
+            return every;
+        }
+        let known = if !self.part.leaves.is_empty() {
+            work.rays.aim(token, of.view, 1 << of.packet);
+            let program = (self.part.bare.as_slice(), self.part.leaves.as_slice());
+            let rays = work.rays.packet(of.packet);
+            certify_together(token, of.view.scene, &self.gathered, program, rays, of.far, &mut self.together)
+        } else if of.far == f32::INFINITY {
+            // Of nothing there is no program, and it is not met.
+            Known {
+                lanes: every,
+                ..Known::NOTHING
+            }
+        } else {
+            Known::NOTHING
+        };
+        // Where a pixel shows the leaf that is certain its normal and its face are right as well.
+        let pixels = of.first..of.first + T::LANES;
+        let mut shown = 0;
+        for (lane, (known, seen)) in known.leaf.iter().zip(&tile.leaf[pixels.clone()]).enumerate() {
+            shown |= u32::from(known == seen) << lane;
+        }
+        let missing = every & !(known.lanes & shown);
+        if missing != every {
+            // The others will be written once more.
+            tile.distance[pixels.clone()].copy_from_slice(&known.t[..T::LANES]);
+            self.certificates.bound[pixels.clone()].copy_from_slice(&known.bound[..T::LANES]);
+            self.certificates.settled[pixels].fill(Settled::Single);
+        }
+        missing
+    }
+
+    /// Certifies some rays of a packet one by one.
     ///
     /// Apart from the tile's other work, which is compiled for its lanes: this is done in none.
     #[inline(never)]
-    #[allow(clippy::too_many_arguments, reason = "what a packet is made of, passed through")]
-    fn certify_packet(
-        &mut self,
-        scene: &Scene<'_, L>,
-        picture: &Picture,
-        [x, y]: [u32; 2],
-        packet: usize,
-        far: f32,
-        pixels: core::ops::Range<usize>,
-        wants: Wants,
-        tile: &mut Tile,
-    ) {
-        self.gathered.packet(packet, far, scene, &mut self.nodes, &mut self.places);
-        // What they leave that are inside of a part all the way is not among what was gathered.
-        let is_whole = self.gathered.inside >> packet & 1 == 1;
+    fn one_by_one(&mut self, of: OfTile<'_, '_, '_, L>, which: u32, wants: Wants, tile: &mut Tile) {
+        let scene = of.view.scene;
+        let is_whole = self.gathered.is_inside(of.packet);
+        self.gathered
+            .solids(scene, &self.part.bare, &self.part.leaves, &mut self.part.nodes);
         let whole = *scene.program();
-        let part = Program::new(&self.nodes).and_then(|part| part.posed(whole.poses()));
-        for pixel in pixels {
+        let part = Program::new(&self.part.nodes).and_then(|part| part.posed(whole.poses()));
+        for lane in (0..T::LANES).filter(|lane| which >> lane & 1 == 1) {
+            let pixel = of.first + lane;
             let [right, down] = Tile::place_of(pixel);
-            let Ok(ray) = picture.raster.ray(x + right as u32, y + down as u32) else {
+            let Ok(ray) = of.picture.raster.ray(of.corner[0] + right as u32, of.corner[1] + down as u32) else {
                 continue;
             };
             let of_part = match part {
@@ -117,12 +189,13 @@ impl<L: Solid> Certifier<L> {
             };
             let known = of_part.and_then(|mut found| {
                 if let Some(hit) = &mut found.hit {
-                    hit.leaf = scene.number(*self.places.get(hit.leaf as usize)?);
+                    let leaf = self.gathered.leaf(*self.part.leaves.get(hit.leaf as usize)?)?;
+                    hit.leaf = scene.number(leaf.place);
                     // Beyond what was gathered nothing is known.
-                    if hit.t + found.bound >= far {
+                    if hit.t + found.bound >= of.far {
                         return None;
                     }
-                } else if far < f32::INFINITY {
+                } else if of.far < f32::INFINITY {
                     return None;
                 }
                 (found.settled != Settled::Tie).then_some(found)
