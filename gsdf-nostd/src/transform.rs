@@ -196,6 +196,26 @@ impl Transform {
         }
     }
 
+    /// By how much rounding in `f32` may move a ray that it takes to the local frame, in that frame: a ray that starts within
+    /// `reach` of the origin of the world, as far as it is within `farthest` of the local one.
+    ///
+    /// Counted: the origin is rounded five times and the direction four, each by a share of as much as the magnitudes of the
+    /// inverse's numbers may make of it, which is at the most the square root of three times what the inverse makes of any vector.
+    pub(crate) fn off(&self, reach: f32, farthest: f32) -> f32 {
+        const SIXTEEN_ROUNDOFFS: f32 = 16.0 / 16_777_216.0;
+        let origin = Vec3::length(self.translation);
+        SIXTEEN_ROUNDOFFS * (reach + 2.0 * origin + farthest * self.greatest_stretch()) / self.stretch
+    }
+
+    /// By how much the map may stretch a length, at the most.
+    fn greatest_stretch(&self) -> f32 {
+        let rows = self.to_local.map(wide);
+        let columns = [cross(rows[1], rows[2]), cross(rows[2], rows[0]), cross(rows[0], rows[1])];
+        let determinant = dot(rows[0], columns[0]);
+        let square: f64 = columns.iter().map(|column| dot(*column, *column)).sum();
+        (libm::sqrt(square) / determinant.abs()) as f32
+    }
+
     /// The unit normal in the world of a surface whose normal in the local frame is `normal`.
     #[inline(always)]
     pub fn normal_to_world<T: Real>(&self, normal: V3<T>) -> V3<T> {

@@ -4,7 +4,7 @@ use super::certify::{Certificate, certify};
 use super::check::ProgramError;
 use super::footing::Anywhere;
 use super::hit::Hit;
-use super::lanes::{Encounter, span_in_world};
+use super::lanes::Encounter;
 use super::program::{Csg, Program};
 use crate::bounded::Bounded;
 use crate::leaf::{Solid, Surface};
@@ -212,7 +212,7 @@ const EMPTY_DOUBLE: Span<Bounded<f64>> = Span {
 /// An end of a leaf's span in `f64`: the nearest `f32` with a bound on its error, half a unit in its last place if that is one,
 /// and as it is.
 fn sharpened<L: Solid>(ray: &Ray, solid: &L, pose: Option<&Transform>, at_enter: bool) -> (f32, f32, Bounded<f64>) {
-    let span: Span<Bounded<f64>> = span_in_world(&ray.line(0.0_f64).bounded(), solid, pose);
+    let span: Span<Bounded<f64>> = solid.span_in_world(&ray.line(0.0_f64).bounded(), pose);
     let end = ray.parameter_of(if at_enter { span.enter } else { span.exit });
     let t = end.value.to_f32();
     let (off, half) = ((f64::from(t) - end.value).abs() + end.doubt().value, half_ulp(t));

@@ -72,13 +72,6 @@ impl<L: Solid> Program<'_, L> {
         }
     }
 
-    /// The span of one leaf along a line in the world, if there is one of that number.
-    #[inline(always)]
-    pub fn span_of<T: Real>(&self, number: u32, line: &Line<T>) -> Option<Span<T>> {
-        let (solid, pose) = self.leaf(number)?;
-        Some(span_in_world(line, solid, pose))
-    }
-
     /// A leaf by its number, with its pose.
     pub(super) fn leaf(&self, number: u32) -> Option<(&L, Option<&Transform>)> {
         let mut leaves = self.nodes.iter().filter_map(|node| match node {
@@ -132,18 +125,6 @@ impl<L: Solid> Program<'_, L> {
             entering: after,
             surface,
         }
-    }
-}
-
-/// The span of a leaf along a line in the world.
-#[inline(always)]
-pub(super) fn span_in_world<T: Real, L: Solid>(line: &Line<T>, solid: &L, pose: Option<&Transform>) -> Span<T> {
-    match pose {
-        Some(pose) => {
-            let local = pose.line_to_local(line);
-            local.span_in_world(solid.span_along(&local.line))
-        }
-        None => solid.span_along(line),
     }
 }
 

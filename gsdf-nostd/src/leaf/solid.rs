@@ -5,6 +5,7 @@ use crate::ray::{Line, Ray, is_in_range};
 use crate::real::{Mask, Real};
 use crate::span::Span;
 use crate::toward::Toward;
+use crate::transform::Transform;
 use crate::vec3::V3;
 use glam::Vec3;
 
@@ -58,16 +59,21 @@ pub trait Solid: Copy {
         None
     }
 
-    /// The solid a little larger, and a little smaller: along any ray that starts within `reach` of the origin of its frame the
-    /// exact span lies between those that are computed of these two, in `f32`. That follows from what is
-    /// [promised](crate#accuracy) of every surface, and is `None` where the solid has no bounds or cannot be [grown](Self::grown).
+    /// The solid a little larger, and a little smaller: along any ray that starts within `reach` of the origin of the world the
+    /// exact span lies between those that are computed of these two in the same pose, in `f32`. That follows from what is
+    /// [promised](crate#accuracy) of every surface, and is `None` where the solid has no bounds or cannot be
+    /// [grown](Self::grown).
     ///
     /// Two spans without errors are less work than one that [knows](crate::Bounded) its own: see [`Span::within`].
     #[inline]
-    fn between(&self, reach: f32) -> Option<[Self; 2]> {
+    fn between(&self, reach: f32, pose: Option<&Transform>) -> Option<[Self; 2]> {
         let bounds = self.bounds()?;
         let farthest = bounds.min.abs().max(bounds.max.abs()).length();
-        let by = (reach + 2.0 * farthest) * BETWEEN;
+        let (reach, off) = match pose {
+            Some(pose) => ((reach + pose.origin().length()) / pose.stretch(), pose.off(reach, farthest)),
+            None => (reach, 0.0),
+        };
+        let by = (reach + 2.0 * farthest) * BETWEEN + 2.0 * off;
         Some([self.grown(by)?, self.grown(-by)?])
     }
 
@@ -91,6 +97,24 @@ pub trait Solid: Copy {
             self.span(&self.seen_from(line.origin), &line.toward)
         } else {
             span_apart(self, line)
+        }
+    }
+
+    /// [`span_along`](Solid::span_along) for a solid that a transform has put into the world, and a line there.
+    #[inline(always)]
+    fn span_in_world<T: Real>(&self, line: &Line<T>, pose: Option<&Transform>) -> Span<T> {
+        let local = match pose {
+            Some(pose) => Some(pose.line_to_local(line)),
+            None => None,
+        };
+        // One place where the formula stands, and no copy of a line in the world.
+        let own = self.span_along(match &local {
+            Some(local) => &local.line,
+            None => line,
+        });
+        match &local {
+            Some(local) => local.span_in_world(own),
+            None => own,
         }
     }
 

@@ -22,7 +22,7 @@ pub(crate) use walk::{Meets, Met, OF_DISTANCE, Walk};
 
 use border::Border;
 use core::ops::Range;
-use gsdf_nostd::{Node, Program, Solid};
+use gsdf_nostd::{Node, Program, Solid, Transform};
 use reach::Reach;
 use split::{Factor, Starts, Subtree, parts, product};
 use tree::order;
@@ -262,6 +262,13 @@ impl<'a, L: Solid> Scene<'a, L> {
     pub(crate) fn leaf(&self, place: u32) -> Option<(&L, u16)> {
         let literal = self.leaves.get(place as usize)?;
         Some((&literal.solid, literal.frame))
+    }
+
+    /// The pose of the solid in a place, if it has one.
+    #[inline(always)]
+    pub(crate) fn pose(&self, place: u32) -> Option<&Transform> {
+        let (_, frame) = self.leaf(place)?;
+        self.program.pose(frame)
     }
 
     /// The places of the leaves, by their numbers.

@@ -117,13 +117,7 @@ impl Window {
 fn certified<T: Lane>(trial: &Trial, leaf: &Leaf, like: T, to_f64: impl Fn(T) -> f64) -> (Option<Window>, f64) {
     let (ray, in_unit) = ray_of(trial);
     let line = ray.line(like).bounded();
-    let span: Span<Bounded<T>> = match trial.solid.pose {
-        Some(pose) => {
-            let local = pose.line_to_local(&line);
-            local.span_in_world(leaf.span_along(&local.line))
-        }
-        None => leaf.span_along(&line),
-    };
+    let span: Span<Bounded<T>> = leaf.span_in_world(&line, trial.solid.pose.as_ref());
     let start = ray.start_on_line(like);
     let in_world = |t: T| to_f64(ray.parameter_of(t)) * in_unit;
     let nodes = [Node::Leaf { solid: *leaf, frame: 0 }];
@@ -152,12 +146,9 @@ fn ray_of(trial: &Trial) -> (Ray, f64) {
 /// What is certain of a crossing between those of a larger and a smaller solid: where it is in `f32`, and in `f64`.
 fn between(trial: &Trial, leaf: &Leaf) -> Option<[Window; 2]> {
     let (ray, in_unit) = ray_of(trial);
-    if trial.solid.pose.is_some() {
-        return None;
-    }
-    let [outer, inner] = leaf
-        .between(ray.origin().length())?
-        .map(|solid| solid.span_along(&ray.line(0.0_f32)));
+    let pose = trial.solid.pose.as_ref();
+    let moved = leaf.between(ray.origin().length(), pose)?;
+    let [outer, inner] = moved.map(|solid| solid.span_in_world(&ray.line(0.0_f32), pose));
     let span: Span<Bounded<f32>> = Span::within(outer, inner);
     let nodes = [Node::Leaf { solid: *leaf, frame: 0 }];
     let found = certify(&nodes, &[span], ray.start_on_line(0.0));
@@ -169,7 +160,7 @@ fn between(trial: &Trial, leaf: &Leaf) -> Option<[Window; 2]> {
     }
     let window = |(low, high): (f64, f64)| Window(ray.parameter_of(low) * in_unit, ray.parameter_of(high) * in_unit);
     let (low, high) = found.t.ends();
-    let Span { enter, exit } = leaf.span_along(&ray.line(0.0_f64));
+    let Span { enter, exit } = leaf.span_in_world(&ray.line(0.0_f64), pose);
     let end = if found.at_enter { enter } else { exit };
     let doubt = f64::from(found.t.error * IN_DOUBLES);
     Some([window((low.into(), high.into())), window((end - doubt, end + doubt))])

@@ -62,12 +62,11 @@ impl<L: Solid> Moved<L> {
         let Some((solid, frame)) = scene.leaf(place) else {
             return Self::Unknown;
         };
-        if let Some(plane) = solid.as_half_space().filter(|_| scene.program().pose(frame).is_none()) {
-            return Self::HalfSpace(plane);
-        }
-        match solid.between(reach).filter(|_| scene.program().pose(frame).is_none()) {
-            Some(moved) => Self::Between(moved),
-            None => Self::Unknown,
+        let pose = scene.program().pose(frame);
+        match (solid.as_half_space(), solid.between(reach, pose)) {
+            (Some(plane), _) if pose.is_none() => Self::HalfSpace(plane),
+            (_, Some(moved)) => Self::Between(moved),
+            _ => Self::Unknown,
         }
     }
 }

@@ -4,7 +4,7 @@ use super::gather::{Gathered, Moved};
 use crate::lanes::{LaneMask, Lanes, MOST_LANES};
 use crate::scene::Scene;
 use crate::tile::pixels::Pixel;
-use gsdf_nostd::{IN_DOUBLES, Line, Node, Ordinary, Real, Solid, Span, Toward, V3, WithError, certify};
+use gsdf_nostd::{IN_DOUBLES, Line, Node, Ordinary, Real, Solid, Span, Toward, Transform, V3, WithError, certify};
 
 /// What the rays of a packet meet first, as far as that is certain.
 pub(super) struct Known {
@@ -49,8 +49,9 @@ pub(super) fn certify_together<T: Lanes, L: Solid>(
                 spans.push(match &leaf.moved {
                     Moved::Between(moved) => {
                         let mut both = [Span::empty_like(start); 2];
+                        let pose = scene.pose(leaf.place);
                         for (span, solid) in both.iter_mut().zip(moved) {
-                            *span = solid.span_along(line);
+                            *span = solid.span_in_world(line, pose);
                         }
                         Span::within(both[0], both[1])
                     }
@@ -79,7 +80,14 @@ pub(super) fn certify_together<T: Lanes, L: Solid>(
                 let Some(leaf) = leaves.get(number as usize) else { continue };
                 let Some(leaf) = gathered.leaf(*leaf) else { continue };
                 let Some((solid, _)) = scene.leaf(leaf.place) else { continue };
-                let end = ends.of(spans_in_doubles::<T, L>(token, solid, &leaf.moved, &ends.line, ends.doubt));
+                let end = ends.of(spans_in_doubles::<T, L>(
+                    token,
+                    solid,
+                    scene.pose(leaf.place),
+                    &leaf.moved,
+                    &ends.line,
+                    ends.doubt,
+                ));
                 let (nearest, half_ulp, rounded) = ends.rounded(token, end);
                 let these_lanes = found.leaf.eq(T::splat(token, number as f32));
                 t = T::select(these_lanes, nearest, t);
@@ -113,6 +121,7 @@ struct Ends<T: Lanes> {
 fn spans_in_doubles<T: Lanes, L: Solid>(
     token: T::Token,
     solid: &L,
+    pose: Option<&Transform>,
     moved: &Moved<L>,
     line: &Line<T::Doubles>,
     doubt: T::Doubles,
@@ -128,7 +137,7 @@ fn spans_in_doubles<T: Lanes, L: Solid>(
             if solid.divides_by_components() {
                 line.toward = line.toward.with_components();
             }
-            let Span { enter, exit } = solid.span_along(&line);
+            let Span { enter, exit } = solid.span_in_world(&line, pose);
             Span {
                 enter: WithError {
                     value: enter,
