@@ -78,6 +78,9 @@ where
     /// Of each pixel it finds what [`Program::cast_certified`](gsdf_nostd::Program::cast_certified) does, with one difference:
     /// what is left out cannot make a ray uncertain. Where single precision is certain, the leaf and the normal are those of
     /// other renderers and the distance is rounded from `f64`.
+    ///
+    /// Cost: three to five times that of other renderers where nearly all packets are certified as a whole, from solids that can
+    /// be [grown](Solid::grown); a microsecond more for each ray that is not.
     #[must_use]
     pub fn certified(scene: &'s Scene<'a, L>, raster: Raster) -> Self {
         Self::certified_at_level(scene, raster, Level::best())

@@ -45,16 +45,7 @@ fn grown_solids_are_as_far_from_what_they_were_as_is_said() {
             }
         }
         println!("{name}: {larger} larger, {smaller} smaller, {within} points within these");
-        let grows = [
-            "sphere",
-            "cuboid",
-            "capped cylinder",
-            "cone",
-            "capped cone",
-            "capsule",
-            "rounded cone",
-        ];
-        if grows.contains(name) {
+        if !["half-space", "cylinder", "nappe", "solid angle", "triangle", "quad"].contains(name) {
             assert!(larger > SOLIDS / 2 && smaller > SOLIDS / 2 && within > 300, "{name}");
         } else {
             assert_eq!((larger, smaller), (0, 0), "{name}");

@@ -46,6 +46,9 @@ impl Contender {
     /// As [`Subject::program`].
     pub fn ready<'s, 'a>(&self, subject: &'s Subject<'a>) -> Result<Ready<'s, 'a>> {
         let renderer = match self.way {
+            Way::Tiles(level) if self.method == Method::Certified => {
+                Some(Renderer::certified_at_level(subject.prepared(), subject.raster(), level))
+            }
             Way::Tiles(level) => Some(Renderer::at_level(subject.prepared(), subject.raster(), level)),
             _ => None,
         };

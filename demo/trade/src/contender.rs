@@ -46,8 +46,8 @@ const EPSILONS: [f32; 4] = [1e-2, 1e-3, 1e-4, 1e-5];
 const STEPS: [u32; 2] = [64, 512];
 
 impl Contender {
-    /// All of them: tiers and tracers, single rays and packets; certified rays alone, since each is completed by itself;
-    /// and tiles, which there are in one tier.
+    /// All of them: tiers and tracers, single rays and packets, but for certified ones, of which each is completed by itself; and
+    /// tiles, which there are in the robust tier and certified.
     pub fn all(level: Level) -> impl Iterator<Item = Self> {
         let tiers = [Method::Fast, Method::Robust, Method::Double, Method::Certified].into_iter();
         let tracers = EPSILONS.into_iter().flat_map(|epsilon| {
@@ -61,7 +61,7 @@ impl Contender {
         });
         let ways = move |method| {
             let packets = (method != Method::Certified).then_some(Way::Packets(level));
-            let tiles = (method == Method::Robust).then_some(Way::Tiles(level));
+            let tiles = matches!(method, Method::Robust | Method::Certified).then_some(Way::Tiles(level));
             let ways = core::iter::once(Way::Scalar).chain(packets).chain(tiles);
             ways.map(move |way| Self { method, way })
         };
@@ -83,10 +83,10 @@ impl Contender {
         matches!(self.method, Method::Traced(_))
     }
 
-    /// Whether it is what the others are compared with: tiles, in which pictures are rendered.
+    /// Whether it is what the others are compared with: robust tiles, in which pictures are rendered.
     #[must_use]
     pub fn is_base(&self) -> bool {
-        matches!(self.way, Way::Tiles(_))
+        self.method == Method::Robust && matches!(self.way, Way::Tiles(_))
     }
 }
 

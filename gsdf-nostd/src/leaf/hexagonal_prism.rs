@@ -161,6 +161,10 @@ impl Solid for HexagonalPrism {
         Caps::crossed(crossed, &seen.caps, toward)
     }
 
+    fn grown(&self, by: f32) -> Option<Self> {
+        Self::new(self.bottom() - Vec3::Y * by, self.top() + by, self.apothem + by).ok()
+    }
+
     fn bounds(&self) -> Option<Bounds> {
         // The corners are 2/√3 of the apothem away; the constant is that, rounded up for the rounding of the product.
         let corner = self.apothem * 1.154_701;

@@ -155,6 +155,10 @@ impl Solid for Octahedron {
             .surface()
     }
 
+    fn grown(&self, by: f32) -> Option<Self> {
+        Self::new(self.center, self.radius + by * libm::sqrtf(3.0)).ok()
+    }
+
     fn bounds(&self) -> Option<Bounds> {
         Some(Bounds::around(self.center, Vec3::splat(self.radius)))
     }

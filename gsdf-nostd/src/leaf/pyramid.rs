@@ -198,6 +198,13 @@ impl Solid for Pyramid {
             .surface()
     }
 
+    fn grown(&self, by: f32) -> Option<Self> {
+        let side = libm::sqrtf(self.half_width * self.half_width + self.height * self.height);
+        // As the sides move out across themselves the apex rises.
+        let height = self.height + by + by * side / self.half_width;
+        Self::new(self.base - Vec3::Y * by, self.half_width * height / self.height, height).ok()
+    }
+
     fn bounds(&self) -> Option<Bounds> {
         let base = Bounds::around(self.base, Vec3::new(self.half_width, 0.0, self.half_width));
         Some(Bounds {

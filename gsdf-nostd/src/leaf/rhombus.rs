@@ -347,6 +347,12 @@ impl Solid for Rhombus {
         Caps::crossed(crossed, &seen.caps, toward)
     }
 
+    fn grown(&self, by: f32) -> Option<Self> {
+        let side = by * libm::sqrtf(self.half_x * self.half_x + self.half_z * self.half_z);
+        let (half_x, half_z) = (self.half_x + side / self.half_z, self.half_z + side / self.half_x);
+        Self::new(self.bottom() - Vec3::Y * by, self.top() + by, half_x, half_z, self.rounding).ok()
+    }
+
     fn bounds(&self) -> Option<Bounds> {
         // One more unit in the last place for the rounding of the sum.
         let reach = |half: f32| {

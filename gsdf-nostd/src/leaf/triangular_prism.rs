@@ -158,6 +158,10 @@ impl Solid for TriangularPrism {
         Caps::crossed(crossed, &seen.caps, toward)
     }
 
+    fn grown(&self, by: f32) -> Option<Self> {
+        Self::new(self.bottom() - Vec3::Y * by, self.top() + by, self.inradius + by).ok()
+    }
+
     fn bounds(&self) -> Option<Bounds> {
         // Half a side is √3 inradii long; the constant is that, rounded up for the rounding of the product.
         let half_side = self.inradius * 1.732_052;
