@@ -154,6 +154,25 @@ fn rounded_up<T: Real>(difference: T, size: T) -> T {
 #[cfg(test)]
 mod tests {
     use super::Span;
+    use crate::bounded::Bounded;
+    use crate::real::Real;
+
+    #[test]
+    fn ends_lie_between_those_of_two_spans() {
+        let within = |outer, inner| -> Span<Bounded<f32>> { Span::within(outer, inner) };
+        let span = within(Span::between(1.0, 4.0), Span::between(1.5, 3.5));
+        let ((enter, entered), (exit, exited)) = (span.enter.ends(), span.exit.ends());
+        assert!(enter <= 1.0 && (1.5..1.500_001).contains(&entered), "{span:?}");
+        assert!((3.499_999..=3.5).contains(&exit) && (4.0..4.000_001).contains(&exited), "{span:?}");
+        // It may be empty, and is around all that may be in it.
+        let thin = within(Span::between(2.0, 2.125), Span::EMPTY);
+        assert!(
+            !thin.enter.lt(thin.exit).sure && thin.enter.ends().1 >= 2.125 && thin.exit.ends().0 <= 2.0,
+            "{thin:?}"
+        );
+        let nothing = within(Span::EMPTY, Span::EMPTY);
+        assert_eq!(nothing, Span::empty_like(Bounded::exact(0.0)));
+    }
 
     #[test]
     fn touching_ends_make_an_empty_span() {
