@@ -1,9 +1,12 @@
 //! What is certified is so, and what can be certified is.
 
-use gsdf_nostd::{Bounded, CertifiedScratch, Settled, Span};
+use gsdf_nostd::glam::{Vec3, vec3};
+use gsdf_nostd::{Bounded, CertifiedScratch, Cuboid, Ray, Settled, Span, csg, half_ulp};
 use gsdf_tests::accuracy::{Cell, Certainty, Corpus, PART};
 use gsdf_tests::shape::KINDS;
 use gsdf_workload::scenes::{S1, S2, S3, S4, S5, Scene};
+use rand::{RngExt, SeedableRng};
+use rand_pcg::Pcg64;
 
 /// No certificate is wrong in ten million rays, the hardest among them; and of rays that are not meant to be hard all are
 /// certain.
@@ -110,5 +113,42 @@ fn reference_scenes_are_certain() {
         assert!(f64::from(seen.single) >= 0.999 * f64::from(seen.hits), "{}: {seen:?}", scene.name);
         assert!(f64::from(seen.rounded) >= 0.99 * f64::from(seen.hits), "{}: {seen:?}", scene.name);
         assert_eq!(seen.leaves_differ, 0, "{}: {seen:?}", scene.name);
+    }
+}
+
+/// Where faces of two solids coincide it is decided by rule whose is met; that one is, and where, is certain. Where one is cut away
+/// to a face that coincides nothing is: a skin might be left.
+#[test]
+fn faces_that_coincide_are_where_they_are_whosever_they_are() {
+    csg! {
+        const BOTH = union(
+            Cuboid::new(vec3(-0.5, -2.0, -3.0), vec3(2.0, 0.5, 1.0)),
+            Cuboid::new(Vec3::NEG_ONE, Vec3::ONE)
+        )
+    }
+    csg! {
+        const CUT = difference(
+            Cuboid::new(Vec3::NEG_ONE, Vec3::ONE),
+            Cuboid::new(vec3(-0.5, -2.0, -3.0), vec3(2.0, 0.5, 1.0))
+        )
+    }
+    let mut rng = Pcg64::seed_from_u64(8);
+    for _ in 0..10_000 {
+        let mut within = |low: f32, high: f32| rng.random_range(low..high);
+        let seen = vec3(within(-0.49, 0.99), within(-0.99, 0.49), 1.0);
+        let eye = vec3(within(-3.0, 3.0), within(-3.0, 3.0), within(2.0, 9.0));
+        let ray = Ray::new(eye, (seen - eye) * within(0.3, 3.0)).unwrap();
+        let t = (1.0 - f64::from(eye.z)) / f64::from(ray.direction().z);
+        let found = BOTH.cast_certified(&ray);
+        let hit = found.hit.unwrap();
+        assert_eq!((found.settled, hit.leaf), (Settled::Tie, 0), "{ray:?}");
+        assert!(found.bound <= half_ulp(hit.t) * 1.001, "{ray:?}: {found:?}");
+        let off = (f64::from(hit.t) - t).abs();
+        assert!(off <= f64::from(found.bound) * 1.000_001, "{ray:?}: {found:?}, not {t}");
+        let through = CUT.cast_certified(&ray);
+        assert!(
+            (through.settled, through.bound) == (Settled::Tie, f32::INFINITY),
+            "{ray:?}: {through:?}"
+        );
     }
 }

@@ -1,6 +1,6 @@
 //! Casts that say how sure they are: in one precision, then in the other, then by rule.
 
-use super::certify::{Certificate, certify};
+use super::certify::{Certificate, certify, crossing_around};
 use super::check::ProgramError;
 use super::footing::Anywhere;
 use super::hit::Hit;
@@ -23,7 +23,7 @@ pub struct Certified {
     /// The first crossing within the ray's range, with its parameter rounded from `f64`; `None` where there is none.
     pub hit: Option<Hit>,
     /// By how much the hit's parameter may be off. In all but rare cases [half a unit in its last place](half_ulp), which is to
-    /// say that it is rounded correctly; infinite where nothing is certain.
+    /// say that it is rounded correctly; infinite where nothing is certain, not even that there is a crossing.
     pub bound: f32,
     /// How far one had to go.
     pub settled: Settled,
@@ -37,8 +37,9 @@ pub enum Settled {
     /// Those of `f64` arithmetic did.
     Double,
     /// Not even these. Roots of several leaves coincide, or the ray touches: which comes first is decided as
-    /// everywhere, by the values in `f64` and the order of the leaves. A triangle or a quad always is such a case: it has no
-    /// inside to be sure of.
+    /// everywhere, by the values in `f64` and the order of the leaves. Where membership is certain before and beyond roots that
+    /// coincide, as at faces that solids share, it is only the leaf that is decided so, and the parameter has its bound. A triangle
+    /// or a quad always is such a case: it has no inside to be sure of.
     Tie,
 }
 
@@ -82,11 +83,13 @@ impl<L: Solid> Program<'_, L> {
         if let Some(found) = self.completed(ray, &second, Settled::Double) {
             return Ok(found);
         }
-        Ok(Certified {
-            hit: self.along(*ray, tie)?.cast(),
-            bound: f32::INFINITY,
-            settled: Settled::Tie,
-        })
+        let around = self.crossing_around(ray, double, &second);
+        Ok(by_rule(ray, self.along(*ray, tie)?.cast(), around))
+    }
+
+    /// Between which parameters of the line a crossing is certain of which it is not certain whose it is.
+    fn crossing_around(&self, ray: &Ray, spans: &[Span<Bounded<f64>>], stuck: &Certificate<f64>) -> Option<(f64, f64)> {
+        crossing_around(self.nodes, spans.get(..self.leaves())?, ray.start_on_line(0.0_f64), stuck)
     }
 
     fn certify_along<T: Lane>(&self, ray: &Ray, like: T, spans: &mut [Span<Bounded<T>>]) -> Result<Certificate<T>, ProgramError> {
@@ -166,24 +169,41 @@ impl<const N: usize, L: Solid> Csg<N, L> {
     fn settled_apart(&self, ray: &Ray) -> Certified {
         let program = self.program();
         let mut double = [EMPTY_DOUBLE; N];
-        let found = program.certify_along(ray, 0.0_f64, &mut double);
-        let found = found.ok().and_then(|found| program.completed(ray, &found, Settled::Double));
-        found.unwrap_or_else(|| self.by_rule(ray))
+        let found = program.certify_along(ray, 0.0_f64, &mut double).ok();
+        if let Some(found) = found.and_then(|found| program.completed(ray, &found, Settled::Double)) {
+            return found;
+        }
+        let around = found.and_then(|found| program.crossing_around(ray, &double, &found));
+        self.tied_apart(ray, around)
     }
 
     #[cold]
     #[inline(never)]
-    fn by_rule(&self, ray: &Ray) -> Certified {
+    fn tied_apart(&self, ray: &Ray, around: Option<(f64, f64)>) -> Certified {
         const NOTHING: Span<f64> = Span {
             enter: f64::INFINITY,
             exit: f64::NEG_INFINITY,
         };
         let mut spans = [NOTHING; N];
-        Certified {
-            hit: self.program().along(*ray, &mut spans).ok().and_then(|sight| sight.cast()),
-            bound: f32::INFINITY,
-            settled: Settled::Tie,
+        let hit = self.program().along(*ray, &mut spans).ok().and_then(|sight| sight.cast());
+        by_rule(ray, hit, around)
+    }
+}
+
+/// What is decided by rule, where a crossing is certain between two parameters of the line if anything is.
+fn by_rule(ray: &Ray, hit: Option<Hit>, around: Option<(f64, f64)>) -> Certified {
+    let bound = match (&hit, around) {
+        (Some(hit), Some((low, high))) => {
+            let (low, high, t) = (ray.parameter_of(low), ray.parameter_of(high), f64::from(hit.t));
+            let is_reached = high < f64::from(ray.range().end.min(f32::MAX));
+            is_reached.then(|| rounded_up(hit.t, (t - low).max(high - t)))
         }
+        _ => None,
+    };
+    Certified {
+        hit,
+        bound: bound.unwrap_or(f32::INFINITY),
+        settled: Settled::Tie,
     }
 }
 
@@ -215,9 +235,13 @@ fn sharpened<L: Solid>(ray: &Ray, solid: &L, pose: Option<&Transform>, at_enter:
     let span: Span<Bounded<f64>> = solid.span_in_world(&ray.line(0.0_f64).bounded(), pose);
     let end = ray.parameter_of(if at_enter { span.enter } else { span.exit });
     let t = end.value.to_f32();
-    let (off, half) = ((f64::from(t) - end.value).abs() + end.doubt().value, half_ulp(t));
-    let bound = if off <= f64::from(half) { half } else { off.to_f32().next_up() };
-    (t, bound, end)
+    (t, rounded_up(t, (f64::from(t) - end.value).abs() + end.doubt().value), end)
+}
+
+/// By how much a number may be off, if it is at the most by so much: half a unit in its last place, or more.
+fn rounded_up(t: f32, off: f64) -> f32 {
+    let half = half_ulp(t);
+    if off <= f64::from(half) { half } else { off.to_f32().next_up() }
 }
 
 /// Half of what there is between a number and the next greater one: by how much one that is rounded correctly may be off.

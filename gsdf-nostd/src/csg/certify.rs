@@ -3,7 +3,7 @@
 use super::node::Node;
 use super::sweep::sweep_values;
 use crate::bounded::{Bounded, SLACK, WithError};
-use crate::real::{Mask, Real};
+use crate::real::{Lane, Mask, Real};
 use crate::span::Span;
 
 /// The first crossing of a program's boundary beyond some parameter, as far as an arithmetic can tell.
@@ -129,9 +129,53 @@ pub fn certify<T: Real, L, const ALWAYS: bool>(nodes: &[Node<L>], spans: &[Span<
     certificate
 }
 
+/// Between which two parameters the boundary is crossed for certain, where it is not certain whose surface that is: where a
+/// certificate that is none got stuck at a root, several may be near to each other, and yet membership is another one beyond all
+/// of them.
+pub(super) fn crossing_around<T: Lane, L>(
+    nodes: &[Node<L>],
+    spans: &[Span<Bounded<T>>],
+    start: T,
+    stuck: &Certificate<T>,
+) -> Option<(T, T)> {
+    let (t, slack) = (stuck.t.value, T::from(SLACK));
+    let is_stuck = !stuck.sure && t < T::from(f32::INFINITY);
+    if !is_stuck || !is_clear(spans, start) {
+        return None;
+    }
+    let ulps = |end: T| end.abs() * T::from(4.0 * T::ROUNDOFF);
+    let (mut low, mut high) = (t - ulps(t), t + ulps(t));
+    // What reaches into what is between grows it; there are no more steps than ends.
+    let mut grown = true;
+    while grown {
+        grown = false;
+        for end in spans.iter().flat_map(|span| [span.enter, span.exit]) {
+            if end.error == T::from(0.0) && end.value.abs() == T::from(f32::INFINITY) {
+                continue;
+            }
+            let reach = end.error * slack + ulps(end.value);
+            let (from, to) = (end.value - reach, end.value + reach);
+            let known = from <= to;
+            if !known {
+                return None;
+            }
+            if to < low || high < from {
+                continue;
+            }
+            if from < low || high < to {
+                (low, high) = (low.min(from), high.max(to));
+                grown = true;
+            }
+        }
+    }
+    let beyond = high + ulps(high);
+    let after = sweep_values(nodes, spans, beyond) < T::from(0.0);
+    (start < low && beyond < T::from(f32::INFINITY) && after != stuck.inside).then_some((low, beyond))
+}
+
 #[cfg(test)]
 mod tests {
-    use super::{Certificate, certify};
+    use super::{Certificate, certify, crossing_around};
     use crate::bounded::Bounded;
     use crate::csg::Node;
     use crate::real::Real;
@@ -177,6 +221,29 @@ mod tests {
     fn a_start_within_reach_of_a_root_is_not() {
         assert!(!certify(&[LEAF], &[span(1.0, 3.0)], 1.05).sure);
         assert!(certify(&[LEAF], &[span(1.0, 3.0)], 1.2).sure);
+    }
+
+    #[test]
+    fn several_roots_that_change_membership_are_a_crossing_whosever_it_is() {
+        let around = |operator: Node<()>, spans: &[Span<Bounded<f32>>]| {
+            let nodes = [LEAF, LEAF, operator];
+            crossing_around(&nodes, spans, 0.0, &certify(&nodes, spans, 0.0))
+        };
+        // Both are entered.
+        let (low, high) = around(Node::Union, &[span(1.0, 3.0), span(1.15, 4.0)]).unwrap();
+        assert!((0.89..=0.9).contains(&low) && (1.25..1.26).contains(&high), "{low} {high}");
+        assert!(around(Node::Intersection, &[span(1.0, 3.0), span(1.15, 4.0)]).is_some());
+        // One is entered where the other may be left before.
+        assert!(around(Node::Difference, &[span(1.0, 3.0), span(0.5, 1.1)]).is_some());
+        assert!(around(Node::Intersection, &[span(1.0, 3.0), span(0.5, 1.1)]).is_none());
+        // A single root is certain, and needs no such thing.
+        assert!(around(Node::Union, &[span(1.0, 3.0), span(5.0, 6.0)]).is_none());
+        // A third one comes near to the second.
+        let nodes = [LEAF, LEAF, Node::Union, LEAF, Node::Union];
+        let spans = [span(1.0, 3.0), span(1.15, 4.0), span(1.3, 5.0)];
+        let found = crossing_around(&nodes, &spans, 0.0, &certify(&nodes, &spans, 0.0)).unwrap();
+        assert!(found.1 > 1.4, "{found:?}");
+        assert!(crossing_around(&nodes, &spans, 0.95, &certify(&nodes, &spans, 0.95)).is_none());
     }
 
     #[test]

@@ -348,9 +348,15 @@ impl Solid for Rhombus {
     }
 
     fn grown(&self, by: f32) -> Option<Self> {
+        let (bottom, top) = (self.bottom() - Vec3::Y * by, self.top() + by);
+        if self.rounding > 0.0
+            && let Ok(rounder) = Self::new(bottom, top, self.half_x, self.half_z, self.rounding + by)
+        {
+            return Some(rounder);
+        }
         let side = by * libm::sqrtf(self.half_x * self.half_x + self.half_z * self.half_z);
         let (half_x, half_z) = (self.half_x + side / self.half_z, self.half_z + side / self.half_x);
-        Self::new(self.bottom() - Vec3::Y * by, self.top() + by, half_x, half_z, self.rounding).ok()
+        Self::new(bottom, top, half_x, half_z, self.rounding).ok()
     }
 
     fn bounds(&self) -> Option<Bounds> {

@@ -104,15 +104,12 @@ macro_rules! doubles_in_two_registers {
             }
             #[inline(always)]
             fn next_up(self) -> Self {
-                let simd = self.0.simd;
-                let next = |lanes: $doubles<$token>| {
-                    let mut numbers: [f64; $lanes / 2] = lanes.into();
-                    for number in &mut numbers {
-                        *number = number.next_up();
-                    }
-                    $doubles::simd_from(simd, numbers)
-                };
-                Self(next(self.0), next(self.1))
+                let mut halves: [[f64; $lanes / 2]; 2] = [self.0.into(), self.1.into()];
+                for number in halves.as_flattened_mut() {
+                    *number = number.next_up();
+                }
+                let [low, high] = halves;
+                Self($doubles::simd_from(self.0.simd, low), $doubles::simd_from(self.0.simd, high))
             }
             #[inline(always)]
             fn lt(self, other: Self) -> $mask {

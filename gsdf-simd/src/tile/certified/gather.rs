@@ -37,6 +37,8 @@ struct Reduced {
     /// The packets that touch it, and from where on.
     touched: u32,
     near: f32,
+    /// The number of its first leaf in the scene.
+    first: u32,
 }
 
 /// A leaf that was gathered.
@@ -121,15 +123,23 @@ impl<L: Solid> Gathered<L> {
             } else {
                 break;
             };
-            let start = self.steps.len() as u32;
+            let (start, first_leaf) = (self.steps.len() as u32, self.leaves.len());
             if self.add(token, scene, rays, number, touched, work) == Known::Inside {
                 self.inside |= touched;
             }
             let steps = start..self.steps.len() as u32;
-            if !steps.is_empty() {
-                self.parts.push(Reduced { steps, touched, near });
+            if let Some(Gathering { place, .. }) = self.leaves.get(first_leaf) {
+                let first = scene.number(*place);
+                self.parts.push(Reduced {
+                    steps,
+                    touched,
+                    near,
+                    first,
+                });
             }
         }
+        // In the order of the program, so that where roots coincide the rule is the same.
+        self.parts.sort_unstable_by_key(|part| part.first);
     }
 
     /// Adds what some packets may meet of a part: nothing where they miss it, or are inside of it all the way.
@@ -166,18 +176,24 @@ impl<L: Solid> Gathered<L> {
                 }
                 let mut is_first = positives == 0;
                 let Some(cuts) = scene.cuts(cuts) else { return Known::Open };
+                work.cuts.clear();
                 work.inner_walk.begin(cuts);
                 while let Some(item) = work.inner_walk.next::<T, M>(token, cuts, rays, f32::INFINITY) {
                     let met = work.inner_walk.met;
                     for place in (0..FANOUT).filter(|place| met.bits >> place & 1 == 1) {
-                        // The first operand of a complement alone stands for all packets.
-                        let of_these = if is_first { touched } else { met.touched[place] & touched };
+                        let of_these = met.touched[place] & touched;
                         if of_these != 0 {
-                            self.add_leaf(scene, first_cut + (item + place) as u32, of_these);
-                            self.operator(if is_first { Node::Complement } else { Node::Difference }, of_these);
-                            is_first = false;
+                            work.cuts.push((first_cut + (item + place) as u32, of_these));
                         }
                     }
+                }
+                work.cuts.sort_unstable_by_key(|(place, _)| scene.number(*place));
+                for &(place, of_these) in &work.cuts {
+                    // The first operand of a complement alone stands for all packets.
+                    let of_these = if is_first { touched } else { of_these };
+                    self.add_leaf(scene, place, of_these);
+                    self.operator(if is_first { Node::Complement } else { Node::Difference }, of_these);
+                    is_first = false;
                 }
                 // Rays that meet none of nothing but complements are inside.
                 if is_first { Known::Inside } else { Known::Open }
@@ -233,6 +249,14 @@ impl<L: Solid> Gathered<L> {
     #[inline(always)]
     pub(super) fn is_inside(&self, packet: usize) -> bool {
         self.inside >> packet & 1 == 1
+    }
+
+    /// Whether leaves are in the order of the scene.
+    pub(super) fn are_in_order(&self, scene: &Scene<'_, L>, leaves: &[u32]) -> bool {
+        leaves
+            .iter()
+            .filter_map(|leaf| Some(scene.number(self.leaf(*leaf)?.place)))
+            .is_sorted_by(|a, b| a < b)
     }
 
     /// A program of some leaves with their solids.

@@ -174,6 +174,7 @@ impl<T: Lanes, L: Solid> Certifier<T, L> {
         self.gathered
             .solids(scene, &self.part.bare, &self.part.leaves, &mut self.part.nodes);
         let whole = *scene.program();
+        let is_in_order = self.gathered.are_in_order(scene, &self.part.leaves);
         let part = Program::new(&self.part.nodes).and_then(|part| part.posed(whole.poses()));
         for lane in (0..T::LANES).filter(|lane| which >> lane & 1 == 1) {
             let pixel = of.first + lane;
@@ -198,9 +199,9 @@ impl<T: Lanes, L: Solid> Certifier<T, L> {
                 } else if of.far < f32::INFINITY {
                     return None;
                 }
-                (found.settled != Settled::Tie).then_some(found)
+                // Where roots coincide the order of the leaves decides.
+                (found.settled != Settled::Tie || is_in_order).then_some(found)
             });
-            // Of roots that coincide the rule of the whole program decides.
             let found = known.or_else(|| self.spans.certify(&whole, &ray)).unwrap_or(MISSED);
             put(&found, wants, tile, &mut self.certificates, pixel);
         }
