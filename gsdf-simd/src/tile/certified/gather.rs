@@ -138,8 +138,19 @@ impl<L: Solid> Gathered<L> {
                 });
             }
         }
-        // In the order of the program, so that where roots coincide the rule is the same.
+        self.sort_parts();
+    }
+
+    /// Puts the parts in the order of the program, so that where roots coincide the rule is the same. Apart, since it has no lanes.
+    #[inline(never)]
+    fn sort_parts(&mut self) {
         self.parts.sort_unstable_by_key(|part| part.first);
+    }
+
+    /// The same for what is subtracted from a part.
+    #[inline(never)]
+    fn sort_cuts(scene: &Scene<'_, L>, cuts: &mut [(u32, u32)]) {
+        cuts.sort_unstable_by_key(|(place, _)| scene.number(*place));
     }
 
     /// Adds what some packets may meet of a part: nothing where they miss it, or are inside of it all the way.
@@ -187,7 +198,7 @@ impl<L: Solid> Gathered<L> {
                         }
                     }
                 }
-                work.cuts.sort_unstable_by_key(|(place, _)| scene.number(*place));
+                Self::sort_cuts(scene, &mut work.cuts);
                 for &(place, of_these) in &work.cuts {
                     // The first operand of a complement alone stands for all packets.
                     let of_these = if is_first { touched } else { of_these };

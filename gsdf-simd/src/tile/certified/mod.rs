@@ -192,8 +192,9 @@ impl<T: Lanes, L: Solid> Certifier<T, L> {
                 if let Some(hit) = &mut found.hit {
                     let leaf = self.gathered.leaf(*self.part.leaves.get(hit.leaf as usize)?)?;
                     hit.leaf = scene.number(leaf.place);
-                    // Beyond what was gathered nothing is known.
-                    if hit.t + found.bound >= of.far {
+                    // Beyond what was gathered nothing is known; what is found by rule is what the whole program finds.
+                    let by_rule = found.settled == Settled::Tie;
+                    if hit.t + if by_rule { 0.0 } else { found.bound } >= of.far {
                         return None;
                     }
                 } else if of.far < f32::INFINITY {
