@@ -171,7 +171,7 @@ impl<T: Real, const ALWAYS: bool> WithError<T, ALWAYS> {
         }
     }
 
-    /// The number where it is ordinary: of others nothing is known here, nor is it asked where there are bounds for all.
+    /// The number where it is ordinary. Of others nothing is known, unless there are bounds for all: those are made elsewhere.
     #[inline(always)]
     fn where_known(self, ordinary: T::Mask) -> Self {
         if ALWAYS {

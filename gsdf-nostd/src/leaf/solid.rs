@@ -21,7 +21,8 @@ use glam::Vec3;
 /// Implement the required methods for a `Copy` type and put it in a [`leaf_set!`](crate::leaf_set!). The contract, on
 /// which theorems and packets rely: spans are half-open and come from [`Span::between`] or its kin (no NaN; empty
 /// where a ray only touches); every arithmetic operation is one of [`Real`]'s; `span` depends on nothing but its
-/// arguments.
+/// arguments. Pictures of it are certified ten times as fast where it can be [`grown`](Solid::grown); that asks of it to keep
+/// the [promise](crate#accuracy) of all solids.
 pub trait Solid: Copy {
     /// What of the solid depends on the ray's origin alone.
     type Seen<T: Real>: Copy;
