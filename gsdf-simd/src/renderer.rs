@@ -79,6 +79,9 @@ where
     /// what is left out cannot make a ray uncertain. Where single precision is certain, the leaf and the normal are those of
     /// other renderers and the distance is rounded from `f64`.
     ///
+    /// What a packet certifies as a whole rests on what is [promised](gsdf_nostd#accuracy) of every surface
+    /// ([`Solid::between`]); what a single ray certifies on the operations of its own formulas.
+    ///
     /// Cost: three to five times that of other renderers where nearly all packets are certified as a whole, from solids that can
     /// be [grown](Solid::grown); a microsecond more for each ray that is not.
     #[must_use]
